@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Encoder and decoder of `.wmc`: a coarse base mesh and the refinements that lead back to the
+/// original. The file format is docs/wmc_format.md; the method is docs/algorithm.md.
+///
+/// Level 0 is the base mesh, the coarsest; the last level is the finest, the original on its
+/// lattice. Bits per vertex (bpv) always count the vertices of the original.
+#pragma once
+
+#include <wavemesh/mesh_data.h>
+#include <wavemesh/status.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace wavemesh {
+
+/// Called now and then with the fraction done, 0..1. Returns false to cancel. May be empty.
+using Progress = std::function<bool(double fraction)>;
+
+enum class Mode : std::uint8_t {
+	Classic = 0, ///< the paper: every refinement is a split at full precision
+};
+
+/// Wavelet geometrical criterion of the paper, sec. III: may a sharp vertex be removed?
+enum class Wgc : std::uint8_t {
+	Off  = 0, ///< geometry-blind coarsening
+	On   = 1,
+	Auto = 2, ///< both are encoded and the smaller file is kept
+};
+
+/// Lifting is off: the lazy filter bank, configuration I of the paper.
+constexpr int kLiftingOff = -1;
+
+struct EncodeOptions
+{
+	Mode mode = Mode::Classic;
+
+	/// Bits per coordinate over the largest extent of the bounding box, 1..24 (2^bits - 1 steps).
+	int bits = 12;
+	/// Lattice step in model units. If > 0 it is used in place of `bits`; the largest extent must
+	/// be below 2^24 steps.
+	double step = 0;
+
+	/// kLiftingOff, or the k of the k-disc support of the update, 0..2 (paper sec. V.B).
+	int lifting = 0;
+
+	Wgc wgc = Wgc::Auto;
+	/// A vertex is sharp if an incident dihedral has |n1 x n2| above this. 0..1.
+	double wgcSharpness = 0.3;
+	/// A sharp vertex may become a child only if its detail, across the parents' edge and relative
+	/// to that edge's length, is below this. > 0.
+	double wgcDeviation = 0.25;
+
+	Progress progress;
+};
+
+enum class LevelKind : std::uint8_t {
+	Base  = 0, ///< the coarsest mesh
+	Split = 1, ///< one subdivision step
+};
+
+/// One row of the level table in the file's head.
+struct LevelInfo
+{
+	LevelKind     kind     = LevelKind::Base;
+	std::uint32_t vertices = 0;
+	std::uint32_t faces    = 0;
+	std::uint64_t bytes    = 0; ///< what this level adds to the file; the levels' sum is the file size
+	std::uint64_t prefix   = 0; ///< length of the shortest prefix of the file that holds this level whole
+	int           bits     = 0; ///< precision of the positions, bits per coordinate
+	/// Model units; an estimate from the details (docs/wmc_format.md), not a surface distance. 0 for
+	/// the finest level.
+	double error = 0;
+};
+
+/// What the head of a file tells.
+struct StreamInfo
+{
+	int                    versionMajor = 0;
+	int                    versionMinor = 0;
+	Mode                   mode         = Mode::Classic;
+	int                    lifting      = kLiftingOff;
+	bool                   wgc          = false; ///< was the coarsening steered by geometry?
+	int                    bits         = 0;     ///< bits per coordinate over the largest extent
+	std::array<double, 3>  origin {};            ///< model units; position of lattice point (0,0,0)
+	double                 step     = 0;         ///< model units per lattice step
+	std::uint32_t          vertices = 0;         ///< of the original
+	std::uint32_t          faces    = 0;
+	std::uint64_t          bytes    = 0; ///< of the whole file
+	/// Bytes of the file spent on connectivity and geometry; the rest is headers and checksums.
+	std::uint64_t          connectivityBytes = 0;
+	std::uint64_t          geometryBytes     = 0;
+	std::vector<LevelInfo> levels; ///< coarsest first
+
+	int finestLevel() const { return static_cast<int>(levels.size()) - 1; }
+};
+
+struct EncodedMesh
+{
+	std::vector<std::uint8_t> bytes; ///< the file
+	StreamInfo                info;
+};
+
+/// Encodes `mesh`.
+///
+/// @param mesh  oriented 2-manifold with or without boundary, any genus, any number of components,
+///              no isolated vertices, no degenerate or duplicate faces; never modified
+/// @return the file; InvalidArgument for options out of range, non-finite coordinates or indices
+///         out of range; Unsupported (naming the vertex or edge) for a mesh that is not as above;
+///         Cancelled. The same mesh and options give the same bytes everywhere.
+/// Cost linear in the mesh.
+Result<EncodedMesh> encode(const MeshData& mesh, const EncodeOptions& options = {});
+
+/// What a decoder may spend. A file that declares more is refused before the memory is taken.
+struct DecodeLimits
+{
+	std::uint64_t maxVertices = 200'000'000;
+	std::uint64_t maxFaces    = 400'000'000;
+};
+
+constexpr int kFinestLevel = -1;
+
+struct DecodeOptions
+{
+	/// Level to stop at, 0 coarsest; kFinestLevel, or anything past the finest: the finest.
+	int           level    = kFinestLevel;
+	/// Decode as if the data ended after this many bytes.
+	std::uint64_t maxBytes = ~std::uint64_t {0};
+	DecodeLimits  limits;
+	Progress      progress;
+};
+
+/// Reads the head only: the first few hundred bytes are enough.
+/// @return NotWmc, VersionTooNew, Truncated (the head is not whole), Corrupt, ChecksumMismatch
+Result<StreamInfo> readInfo(const std::uint8_t* data, std::size_t size);
+
+struct DecodedMesh
+{
+	MeshData   mesh;
+	int        level = 0; ///< that `mesh` is; a level cut in the middle counts if its connectivity is whole
+	StreamInfo info;
+};
+
+/// Decodes up to options.level.
+///
+/// @return the mesh; with status Truncated *and* a mesh if the data ends before the level asked
+///         for but after the base mesh. Errors without a mesh: NotWmc, VersionTooNew, Truncated
+///         (not even the base arrived), Corrupt, ChecksumMismatch, LimitExceeded, Cancelled.
+/// Vertices of a level keep their index in every finer level.
+Result<DecodedMesh> decode(
+	const std::uint8_t*  data,
+	std::size_t          size,
+	const DecodeOptions& options = {});
+
+/// Decodes level by level; what decode() is made of, for browsing and for streams.
+///
+///     auto decoder = Decoder::open(data, size);
+///     while (decoder.ok() && decoder->level() < decoder->info().finestLevel()) {
+///         Status s = decoder->advance();
+///         use(decoder->mesh());
+///     }
+class Decoder
+{
+public:
+	/// Reads the head. `data` must stay alive and unchanged as long as the decoder.
+	static Result<Decoder> open(
+		const std::uint8_t* data,
+		std::size_t         size,
+		const DecodeLimits& limits = {});
+
+	Decoder(Decoder&&) noexcept;
+	Decoder& operator=(Decoder&&) noexcept;
+	~Decoder();
+
+	const StreamInfo& info() const;
+	/// Level of mesh(), or -1 before the first advance().
+	int level() const;
+	/// Decodes the next level. After an error the decoder stays at the level it had; after
+	/// Truncated it may have moved to a partly predicted level and does not advance any more.
+	Status advance();
+	/// The mesh of the current level. @pre level() >= 0
+	MeshData mesh() const;
+
+private:
+	struct State;
+	explicit Decoder(std::unique_ptr<State>);
+	std::unique_ptr<State> state_;
+};
+
+} // namespace wavemesh
