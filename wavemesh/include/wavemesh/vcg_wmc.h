@@ -56,7 +56,7 @@ void fromMeshData(const MeshData& data, MeshType& m)
 	for (std::size_t i = 0; i < data.triangles.size(); ++i)
 		for (int k = 0; k < 3; ++k)
 			m.face[i].V(k) = &m.vert[data.triangles[i][std::size_t(k)]];
-	if constexpr (MeshType::VertexType::HasNormal() && MeshType::FaceType::HasNormal())
+	if (vcg::tri::HasPerVertexNormal(m) && vcg::tri::HasPerFaceNormal(m))
 		vcg::tri::UpdateNormal<MeshType>::PerVertexNormalizedPerFaceNormalized(m);
 	vcg::tri::UpdateBounding<MeshType>::Box(m);
 }

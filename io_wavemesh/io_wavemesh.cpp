@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io_wavemesh.h"
+
+#include "file_bytes.h"
+#include "shared/encode_parameters.h"
+#include "shared/layer_stream.h"
+#include "shared/plugin_support.h"
+
+#include <wavemesh/vcg_wmc.h>
+
+#include <QFileInfo>
+
+#include <limits>
+
+using namespace wavemesh;
+
+namespace {
+
+constexpr char kExtension[] = "WMC";
+
+/// What the open dialog asks.
+struct OpenRequest
+{
+	int           level     = kFinestLevel;
+	std::uint64_t maxBytes  = std::numeric_limits<std::uint64_t>::max();
+	bool          allLevels = false;
+
+	explicit OpenRequest(const RichParameterList& parameters) :
+			level(integerOf(parameters, "level", kFinestLevel)),
+			allLevels(flagOf(parameters, "all_levels", false))
+	{
+		const int limit = integerOf(parameters, "max_bytes", 0);
+		if (limit > 0)
+			maxBytes = std::uint64_t(limit);
+	}
+};
+
+/// How many levels the first `size` bytes hold whole.
+int wholeLevels(const StreamInfo& info, std::uint64_t size)
+{
+	int count = 0;
+	for (const LevelInfo& level : info.levels)
+		count += level.prefix <= size;
+	return count;
+}
+
+/// Shows `mesh`, level `level` of `stream`, and leaves the stream on the layer for filter_wavemesh.
+void fillLayer(MeshModel& layer, const MeshData& mesh, int level, int finest, SharedBytes stream)
+{
+	showOnLayer(layer, mesh);
+	keepStream(layer.cm, {std::move(stream), level, fingerprint(layer.cm)});
+	layer.setLabel(levelLabel(layer.label(), level, finest));
+}
+
+/// "18 432 bytes" and the like.
+QString byteCount(std::uint64_t bytes)
+{
+	return QString::number(bytes) + " bytes";
+}
+
+} // namespace
+
+QString IOWavemeshPlugin::pluginName() const
+{
+	return "IOWavemesh";
+}
+
+QString IOWavemeshPlugin::vendor() const
+{
+	return "Wavemesh";
+}
+
+std::list<FileFormat> IOWavemeshPlugin::importFormats() const
+{
+	return {FileFormat("Wavemesh progressive compressed mesh", QString(kExtension))};
+}
+
+std::list<FileFormat> IOWavemeshPlugin::exportFormats() const
+{
+	return importFormats();
+}
+
+RichParameterList IOWavemeshPlugin::initPreOpenParameter(const QString& format) const
+{
+	RichParameterList list;
+	if (format.toUpper() != kExtension)
+		return list;
+	list.addParam(RichInt(
+		"level", kFinestLevel, "Level",
+		"Level of detail to open: 0 is the base mesh, the coarsest; -1, or a number larger than the "
+		"file has levels, is the finest, the whole mesh. The other levels stay at hand: see the "
+		"filter <i>Wavemesh: Browse Levels</i>."));
+	list.addParam(RichInt(
+		"max_bytes", 0, "Max. bytes (0 = whole file)",
+		"Read no more than so many bytes of the file, and show the finest level that they hold."));
+	list.addParam(RichBool(
+		"all_levels", false, "All levels as layers",
+		"Open every level, from the base mesh up to the level above, as a layer of its own."));
+	return list;
+}
+
+unsigned int IOWavemeshPlugin::numberMeshesContainedInFile(
+	const QString&           format,
+	const QString&           fileName,
+	const RichParameterList& parameters) const
+{
+	return guarded([&]() -> unsigned int {
+		const OpenRequest request(parameters);
+		if (format.toUpper() != kExtension || !request.allLevels)
+			return 1;
+		const std::vector<std::uint8_t> bytes = readFile(fileName, request.maxBytes);
+		const auto                      info  = readInfo(bytes.data(), bytes.size());
+		if (!info.ok())
+			return 1;
+		int count = wholeLevels(*info, bytes.size());
+		if (request.level >= 0)
+			count = std::min(count, request.level + 1);
+		return unsigned(std::max(count, 1));
+	});
+}
+
+void IOWavemeshPlugin::open(
+	const QString&               format,
+	const QString&               fileName,
+	const std::list<MeshModel*>& layers,
+	std::list<int>&              masks,
+	const RichParameterList&     parameters,
+	vcg::CallBackPos*            cb)
+{
+	guarded([&] {
+		const OpenRequest request(parameters);
+		if (layers.size() == 1 && !request.allLevels) {
+			masks.push_back(0);
+			return open(format, fileName, *layers.front(), masks.back(), parameters, cb);
+		}
+		if (format.toUpper() != kExtension)
+			wrongOpenFormat(format);
+		const auto bytes = std::make_shared<const std::vector<std::uint8_t>>(
+			readFile(fileName, request.maxBytes));
+		auto       decoder  = Decoder::open(bytes->data(), bytes->size());
+		const auto progress = progressBar(cb, "Decoding levels...");
+		require(decoder.status(), "Cannot open " + fileName);
+		const int finest = decoder->info().finestLevel();
+		for (MeshModel* layer : layers) {
+			require(decoder->advance(), "Cannot open " + fileName);
+			fillLayer(*layer, decoder->mesh(), decoder->level(), finest, bytes);
+			// Told of every one, the finest too: several layers come from one file.
+			layer->setLabel(QString("%1 (level %2 of %3)")
+								.arg(QFileInfo(fileName).fileName())
+								.arg(decoder->level())
+								.arg(finest));
+			masks.push_back(0);
+			if (progress)
+				progress(double(masks.size()) / double(layers.size()));
+		}
+		if (bytes->size() < decoder->info().bytes && request.maxBytes >= bytes->size())
+			warn(QString("%1 is cut: %2 of its %3 levels are whole.")
+					 .arg(fileName)
+					 .arg(wholeLevels(decoder->info(), bytes->size()))
+					 .arg(finest + 1));
+	});
+}
+
+void IOWavemeshPlugin::open(
+	const QString&           format,
+	const QString&           fileName,
+	MeshModel&               layer,
+	int&                     mask,
+	const RichParameterList& parameters,
+	vcg::CallBackPos*        cb)
+{
+	guarded([&] {
+		if (format.toUpper() != kExtension)
+			wrongOpenFormat(format);
+		const OpenRequest request(parameters);
+		const Stopwatch   watch;
+		const auto        bytes = std::make_shared<const std::vector<std::uint8_t>>(
+            readFile(fileName, request.maxBytes));
+
+		DecodeOptions options;
+		options.level    = request.level;
+		options.progress = progressBar(cb, "Decoding...");
+		const auto decoded = decode(bytes->data(), bytes->size(), options);
+		if (!decoded.hasValue())
+			require(decoded.status(), "Cannot open " + fileName);
+
+		const StreamInfo& info = decoded->info;
+		fillLayer(layer, decoded->mesh, decoded->level, info.finestLevel(), bytes);
+		mask = 0;
+		if (decoded.status().code == StatusCode::Truncated && bytes->size() < request.maxBytes)
+			warn(QString("%1 is cut: %2 of %3 are there. Level %4 of %5 is shown. (%6)")
+					 .arg(fileName, QString::number(bytes->size()), byteCount(info.bytes))
+					 .arg(decoded->level)
+					 .arg(info.finestLevel())
+					 .arg(explain(decoded.status())));
+		log(QString("Opened level %1 of %2: %3 vertices, %4 faces, from %5 in %6 s.")
+				.arg(decoded->level)
+				.arg(info.finestLevel())
+				.arg(layer.cm.vn)
+				.arg(layer.cm.fn)
+				.arg(byteCount(bytes->size()))
+				.arg(watch.seconds(), 0, 'f', 2)
+				.toStdString());
+	});
+}
+
+void IOWavemeshPlugin::exportMaskCapability(const QString&, int& capability, int& defaultBits) const
+{
+	// Coordinates and connectivity, which every format has and no bit stands for.
+	capability = defaultBits = 0;
+}
+
+RichParameterList
+IOWavemeshPlugin::initSaveParameter(const QString& format, const MeshModel&) const
+{
+	RichParameterList list;
+	if (format.toUpper() == kExtension)
+		addEncodeParameters(list, {});
+	return list;
+}
+
+void IOWavemeshPlugin::save(
+	const QString&           format,
+	const QString&           fileName,
+	MeshModel&               layer,
+	const int /*mask*/,
+	const RichParameterList& parameters,
+	vcg::CallBackPos*        cb)
+{
+	guarded([&] {
+		if (format.toUpper() != kExtension)
+			wrongSaveFormat(format);
+		EncodeOptions options = encodeOptions(parameters, {});
+		options.progress      = progressBar(cb, "Encoding...");
+
+		const Stopwatch watch;
+		const auto      encoded = encode(toMeshData(layer.cm), options);
+		require(encoded.status(), "Cannot save " + fileName);
+		writeFile(fileName, encoded->bytes);
+
+		// Not reportWarning(): MeshLab shows those when it next opens a file.
+		const QStringList lost = attributesNotKept(layer);
+		if (!lost.isEmpty())
+			log(GLLogStream::WARNING,
+				("A .wmc file does not keep yet: " + lost.join(", ") + ".").toStdString());
+		const double bytes     = double(encoded->bytes.size());
+		const double binaryPly = 12.0 * layer.cm.vn + 13.0 * layer.cm.fn;
+		log(QString("Saved %1: %2 in %3 levels, %4 bits per vertex, 1/%5 of a binary PLY, %6 s.")
+				.arg(QFileInfo(fileName).fileName(), byteCount(encoded->bytes.size()))
+				.arg(encoded->info.levels.size())
+				.arg(8 * bytes / layer.cm.vn, 0, 'f', 2)
+				.arg(binaryPly / bytes, 0, 'f', 1)
+				.arg(watch.seconds(), 0, 'f', 2)
+				.toStdString());
+	});
+}
+
+/// In the dialog that MeshLab shows after opening, and in the log, which scripts see too.
+void IOWavemeshPlugin::warn(const QString& message) const
+{
+	reportWarning(message);
+	log(GLLogStream::WARNING, message.toStdString());
+}
+
+MESHLAB_PLUGIN_NAME_EXPORTER(IOWavemeshPlugin)

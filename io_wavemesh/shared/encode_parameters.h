@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// How a mesh is to be encoded: the parameters, the same in the save dialog and in the filters.
+#pragma once
+
+#include <wavemesh/codec.h>
+
+#include <common/parameters/rich_parameter_list.h>
+
+namespace wavemesh {
+
+/// Appends the parameters to `list`, with the values of `defaults`.
+void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults);
+
+/// Reads them back; what a script leaves out keeps the value of `defaults`.
+/// @throws MLException naming the parameter that is out of range
+EncodeOptions encodeOptions(const RichParameterList& list, const EncodeOptions& defaults);
+
+} // namespace wavemesh

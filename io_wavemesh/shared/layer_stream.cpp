@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "layer_stream.h"
+
+#include <wavemesh/vcg_wmc.h>
+
+#include <QRegularExpression>
+
+#include <cstring>
+#include <utility>
+
+namespace wavemesh {
+namespace {
+
+constexpr char kStreamAttribute[] = "wavemesh.stream";
+
+/// Data that a layer need not have, and that a level does not bring.
+constexpr int kOptionalData =
+	MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTMARK |
+	MeshModel::MM_VERTFACETOPO | MeshModel::MM_VERTCURVDIR | MeshModel::MM_VERTRADIUS |
+	MeshModel::MM_VERTTEXCOORD | MeshModel::MM_FACECOLOR | MeshModel::MM_FACEQUALITY |
+	MeshModel::MM_FACEMARK | MeshModel::MM_FACEFACETOPO | MeshModel::MM_FACECURVDIR |
+	MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_POLYGONAL;
+
+using Attributes = vcg::tri::Allocator<CMeshO>;
+
+/// CMeshO's swap leaves the transformation (which is the layer's) but forgets these counters.
+void swapMeshes(CMeshO& layerMesh, CMeshO& other)
+{
+	using std::swap;
+	swap(layerMesh, other);
+	swap(layerMesh.sfn, other.sfn);
+	swap(layerMesh.svn, other.svn);
+	swap(layerMesh.pfn, other.pfn);
+	swap(layerMesh.pvn, other.pvn);
+	swap(layerMesh.shot, other.shot); // back again: the camera is the layer's
+}
+
+} // namespace
+
+const LayerStream* findStream(const CMeshO& m)
+{
+	const auto handle = Attributes::FindPerMeshAttribute<LayerStream>(m, kStreamAttribute);
+	return Attributes::IsValidHandle(m, handle) && handle().bytes ? &handle() : nullptr;
+}
+
+void keepStream(CMeshO& m, LayerStream stream)
+{
+	Attributes::GetPerMeshAttribute<LayerStream>(m, kStreamAttribute)() = std::move(stream);
+}
+
+void dropStream(CMeshO& m)
+{
+	Attributes::DeletePerMeshAttribute(m, kStreamAttribute);
+}
+
+std::uint64_t fingerprint(const CMeshO& m)
+{
+	const MeshData data = toMeshData(m);
+	std::uint64_t  hash = data.positions.size() * 0x9e3779b97f4a7c15ull + data.triangles.size();
+	const auto     mix  = [&hash](std::uint64_t word) {
+        hash = (hash ^ word) * 0x9e3779b97f4a7c15ull;
+        hash ^= hash >> 29;
+	};
+	for (const auto& p : data.positions)
+		for (double x : p) {
+			std::uint64_t word;
+			std::memcpy(&word, &x, sizeof word);
+			mix(word);
+		}
+	for (const auto& t : data.triangles)
+		for (std::uint32_t v : t)
+			mix(v);
+	return hash;
+}
+
+CMeshO takeMesh(MeshModel& layer)
+{
+	CMeshO mesh;
+	swapMeshes(layer.cm, mesh);
+	layer.clearDataMask(layer.dataMask() & kOptionalData);
+	return mesh;
+}
+
+void putMesh(MeshModel& layer, CMeshO&& mesh, int dataMask)
+{
+	layer.clearDataMask(layer.dataMask() & kOptionalData);
+	swapMeshes(layer.cm, mesh);
+	layer.updateDataMask(dataMask);
+}
+
+void showOnLayer(MeshModel& layer, const MeshData& data)
+{
+	takeMesh(layer);
+	fromMeshData(data, layer.cm);
+	layer.updateBoxAndNormals();
+}
+
+QString levelLabel(const QString& label, int level, int finest)
+{
+	static const QRegularExpression ours(" \\(level \\d+ of \\d+\\)$");
+	const QString                   plain = QString(label).remove(ours);
+	return level >= finest ? plain : QString("%1 (level %2 of %3)").arg(plain).arg(level).arg(finest);
+}
+
+QStringList attributesNotKept(const MeshModel& layer)
+{
+	static const struct
+	{
+		int         mask;
+		const char* name;
+	} kinds[] = {
+		{MeshModel::MM_VERTCOLOR, "vertex colours"},
+		{MeshModel::MM_VERTQUALITY, "vertex quality"},
+		{MeshModel::MM_VERTRADIUS, "vertex radius"},
+		{MeshModel::MM_VERTTEXCOORD, "vertex texture coordinates"},
+		{MeshModel::MM_WEDGTEXCOORD, "wedge texture coordinates"},
+		{MeshModel::MM_FACECOLOR, "face colours"},
+		{MeshModel::MM_FACEQUALITY, "face quality"},
+		{MeshModel::MM_POLYGONAL, "polygons (they become triangles)"},
+	};
+	QStringList names;
+	for (const auto& kind : kinds)
+		if (layer.hasDataMask(kind.mask))
+			names << kind.name;
+	if (layer.cm.en > 0)
+		names << "edges";
+	return names;
+}
+
+} // namespace wavemesh

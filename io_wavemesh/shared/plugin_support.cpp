@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plugin_support.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace wavemesh {
+
+QString explain(const Status& status)
+{
+	QString text = QString::fromStdString(status.what);
+	if (text.isEmpty())
+		text = QString("error %1").arg(int(status.code));
+	if (!text.endsWith('.'))
+		text += '.';
+	switch (status.code) {
+	case StatusCode::Unsupported:
+		return text + " The filters of the menu Cleaning and Repairing (duplicate and unreferenced "
+					  "vertices, duplicate and null faces, non manifold edges and vertices) make a "
+					  "mesh that can be encoded.";
+	case StatusCode::VersionTooNew: return text + " A newer Wavemesh is needed to read it.";
+	case StatusCode::OutOfMemory:
+		return text + " Open it at a coarser level, or close other layers.";
+	default: return text;
+	}
+}
+
+void require(const Status& status, const QString& doing)
+{
+	if (!status.ok())
+		throw MLException(doing + ": " + explain(status));
+}
+
+Progress progressBar(vcg::CallBackPos* bar, const char* doing)
+{
+	if (bar == nullptr)
+		return {};
+	return [bar, doing, shown = -1](double fraction) mutable {
+		const int percent = int(100 * fraction);
+		if (percent != shown)
+			bar(shown = percent, doing);
+		return true;
+	};
+}
+
+double numberOf(const RichParameterList& list, const QString& name, double missing)
+{
+	if (!list.hasParameter(name))
+		return missing;
+	const Value& value = list.getParameterByName(name).value();
+	if (value.isInt())
+		return value.getInt();
+	if (value.isFloat())
+		return double(value.getFloat());
+	throw MLException("Wavemesh: the parameter '" + name + "' has to be a number.");
+}
+
+int integerOf(const RichParameterList& list, const QString& name, int missing)
+{
+	const double number = numberOf(list, name, missing);
+	if (!(std::fabs(number) <= std::numeric_limits<int>::max()))
+		throw MLException("Wavemesh: the parameter '" + name + "' is out of range.");
+	return int(std::lround(number));
+}
+
+bool flagOf(const RichParameterList& list, const QString& name, bool missing)
+{
+	if (!list.hasParameter(name))
+		return missing;
+	const Value& value = list.getParameterByName(name).value();
+	if (!value.isBool())
+		throw MLException("Wavemesh: the parameter '" + name + "' has to be true or false.");
+	return value.getBool();
+}
+
+QString textOf(const RichParameterList& list, const QString& name, const QString& missing)
+{
+	if (!list.hasParameter(name))
+		return missing;
+	const Value& value = list.getParameterByName(name).value();
+	if (!value.isString())
+		throw MLException("Wavemesh: the parameter '" + name + "' has to be a text.");
+	return value.getString();
+}
+
+QVariant countValue(std::uint64_t count)
+{
+	if (count <= std::uint64_t(std::numeric_limits<int>::max()))
+		return QVariant(int(count));
+	return QVariant(double(count));
+}
+
+static std::int64_t nowNanoseconds()
+{
+	return std::chrono::duration_cast<std::chrono::nanoseconds>(
+			   std::chrono::steady_clock::now().time_since_epoch())
+		.count();
+}
+
+Stopwatch::Stopwatch() : start_(nowNanoseconds()) {}
+
+double Stopwatch::seconds() const
+{
+	return 1e-9 * double(nowNanoseconds() - start_);
+}
+
+} // namespace wavemesh
