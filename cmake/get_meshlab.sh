@@ -9,7 +9,7 @@
 # The source is that of the distribution's own source package of a newer suite. Where packages come
 # from is read from the system's apt configuration; the system's own lists are not touched.
 
-: "${cache:?set by setup.sh}" "${logs:?}"
+: "${root:?set by setup.sh}" "${cache:?}" "${logs:?}"
 
 # The suites that may offer MeshLab 2022.02 or newer, best first. 2022.02's headers are a test.
 meshlab_suites=(forky trixie)
@@ -192,23 +192,39 @@ get_meshlab_2022() {
 	fi
 }
 
+# Sources are compiled several at a time and with -O1, which takes a third of the time; should a
+# MeshLab not be fit for that, one at a time.
+run_ninja_on_meshlab() {
+	if ! ninja -C "$meshlab_build" "$@"; then
+		echo "Once more, one source at a time."
+		cmake -DCMAKE_UNITY_BUILD=OFF "$meshlab_build"
+		ninja -C "$meshlab_build" "$@"
+	fi
+}
+
 # build_meshlab TITLE TARGETS...
 build_meshlab() {
-	local title=$1 plugins
+	local title=$1 plugins key
 	shift
 	# With MINI nothing is downloaded, and a plugin is built only if it is named.
 	plugins="meshlabplugins/io_base;meshlabplugins/filter_measure"
 	plugins+=";meshlabplugins/filter_sampling;meshlabplugins/decorate_base"
+	key="2 $meshlab_source $plugins"
 	lock_cache
-	if [[ ! -f $meshlab_build/configured || $(<"$meshlab_build/configured") != "$plugins" ]]; then
+	if [[ ! -f $meshlab_build/configured || $(<"$meshlab_build/configured") != "$key" ]]; then
+		# MeshLab's CMake reads the injected file whenever it runs: it has to outlive this clone.
+		mkdir -p "$meshlab_build"
+		cp "$root/cmake/meshlab_unity.cmake" "$meshlab_build/wavemesh_unity.cmake"
 		step "Configuring MeshLab" \
 			"if MESHLAB_SOURCE_DIR is set, see that it is MeshLab 2022.02 or newer with Qt 5." \
 			cmake -S "$meshlab_source" -B "$meshlab_build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+			"-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG" -DCMAKE_UNITY_BUILD=ON \
+			"-DCMAKE_PROJECT_MeshLab_INCLUDE=$meshlab_build/wavemesh_unity.cmake" \
 			-DMESHLAB_BUILD_MINI=ON "-DMESHLAB_PLUGINS=$plugins"
-		echo "$plugins" >"$meshlab_build/configured"
+		echo "$key" >"$meshlab_build/configured"
 	fi
 	step "$title" \
 		"run this again, it goes on where it stopped; if that does not help, delete $meshlab_build" \
-		ninja -C "$meshlab_build" "$@"
+		run_ninja_on_meshlab "$@"
 	unlock_cache
 }

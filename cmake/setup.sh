@@ -19,9 +19,12 @@ mkdir -p "$logs" "$cache"
 # shellcheck source=cmake/get_meshlab.sh
 . "$root/cmake/get_meshlab.sh"
 
+# Read by those who source this.
+# shellcheck disable=SC2034
 packages_build=(g++ cmake ninja-build xz-utils
 	qtbase5-dev libqt5opengl5-dev libglew-dev libglu1-mesa-dev libeigen3-dev
 	libcli11-dev nlohmann-json3-dev libxxhash-dev libgtest-dev)
+# shellcheck disable=SC2034
 packages_tests=(clang python3 xvfb xauth xdotool imagemagick x11-utils libgl1-mesa-dri)
 
 say() {
@@ -143,7 +146,25 @@ set_up() {
 	say "   MeshLab is kept in $cache"
 	require_packages "$@"
 	get_meshlab
-	build_meshlab "Building the parts of MeshLab that are needed (3 to 5 minutes the first time)" \
+	build_meshlab "Building the parts of MeshLab that are needed (some minutes, the first time)" \
 		meshlab-common io_base filter_measure filter_sampling
 	export MESHLAB_SOURCE_DIR=$meshlab_source MESHLAB_BUILD_DIR=$meshlab_build
+}
+
+# MeshLab looks for plugins beside its own executable. This makes such a folder for this clone, in
+# which our plugins are always those just built, and leaves the cached MeshLab as it is.
+make_meshlab_folder() {
+	local folder=$build/meshlab plugin
+	build_meshlab "Building the MeshLab application (some minutes, the first time)" \
+		meshlab decorate_base copy-distrib-files
+	mkdir -p "$folder/plugins"
+	cp -u "$meshlab_build/src/distrib/meshlab" "$folder/meshlab"
+	ln -sfn "$meshlab_build/src/distrib/shaders" "$folder/shaders"
+	find "$folder/plugins" -type l -delete
+	for plugin in io_base filter_measure filter_sampling decorate_base; do
+		ln -s "$meshlab_build/src/distrib/plugins/lib$plugin.so" "$folder/plugins/"
+	done
+	for plugin in io_wavemesh filter_wavemesh; do
+		ln -s "$build/plugins/lib$plugin.so" "$folder/plugins/"
+	done
 }

@@ -42,30 +42,15 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source=cmake/setup.sh
 . cmake/setup.sh
 
-# MeshLab looks for plugins beside its own executable. This makes such a folder for this clone, in
-# which our plugins are always those just built and the cached MeshLab stays as it is.
-make_meshlab_folder() {
-	local folder=$1 plugin
-	mkdir -p "$folder/plugins"
-	cp -u "$meshlab_build/src/distrib/meshlab" "$folder/meshlab"
-	ln -sfn "$meshlab_build/src/distrib/shaders" "$folder/shaders"
-	find "$folder/plugins" -type l -delete
-	for plugin in "$meshlab_build"/src/distrib/plugins/*.so "$build"/plugins/*.so; do
-		ln -sf "$plugin" "$folder/plugins/"
-	done
-}
-
 if [[ -n $gui ]]; then
 	if [[ -z ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
 		die "There is no display to open MeshLab's window on: DISPLAY is not set." \
 			"Run this from a graphical session, or through 'ssh -X'."
 	fi
 	set_up "${packages_build[@]}"
-	build_meshlab "Building the MeshLab application (3 minutes the first time)" \
-		meshlab decorate_base copy-distrib-files
+	make_meshlab_folder
 	configure meshlab
 	build_targets "Building Wavemesh" "$build" wmc io_wavemesh filter_wavemesh
-	make_meshlab_folder "$build/meshlab"
 	say "-- MeshLab opens; the plugins are $build/plugins/*.so"
 	exec "$build/meshlab/meshlab" ${gui_file:+"$gui_file"}
 fi
@@ -74,4 +59,20 @@ set_up "${packages_build[@]}"
 configure meshlab
 build_targets "Building Wavemesh: codec, tool, plugins and a headless MeshLab" "$build" \
 	wmc io_wavemesh filter_wavemesh meshlab_host
+say "-- Simplifying, saving and reopening the samples in a headless MeshLab"
+output=$build/samples
+meshlab_plugins=$meshlab_build/src/distrib/plugins
+QT_QPA_PLATFORM=offscreen "$build/meshlab_host" \
+	--plugins "$meshlab_plugins" --plugins "$build/plugins" \
+	--script samples/simplify.mlx --out "$output" samples/*.ply ||
+	die "The samples did not come through MeshLab as they should; see above."
+
 say
+say "-- Checking every file against its original, by $build/wmc verify"
+for mesh in samples/*.ply; do
+	name=$(basename "$mesh" .ply)
+	"$build/wmc" verify "$mesh" "$output/$name.wmc" ||
+		die "$output/$name.wmc does not hold the original." \
+			"This is a mistake in Wavemesh: please report it with the mesh."
+done
+say "-- All is well. The files are in $output; ./samples/run.sh --gui FILE opens one in MeshLab."

@@ -10,8 +10,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . cmake/setup.sh
 
 set_up "${packages_build[@]}" "${packages_tests[@]}"
-build_meshlab "Building the MeshLab application (3 minutes the first time)" \
-	meshlab decorate_base copy-distrib-files
+make_meshlab_folder
 get_meshlab_2022
 
 configure meshlab "-DWAVEMESH_MESHLAB_2022_DIR=$meshlab_2022_source" \
