@@ -47,7 +47,7 @@ int wholeLevels(const StreamInfo& info, std::uint64_t size)
 /// Shows `mesh`, level `level` of `stream`, and leaves the stream on the layer for filter_wavemesh.
 void fillLayer(MeshModel& layer, const MeshData& mesh, int level, int finest, SharedBytes stream)
 {
-	showOnLayer(layer, mesh);
+	exchangeMesh(layer, makeMesh(mesh));
 	keepStream(layer.cm, {std::move(stream), level, fingerprint(layer.cm)});
 	layer.setLabel(levelLabel(layer.label(), level, finest));
 }

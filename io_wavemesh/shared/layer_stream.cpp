@@ -24,15 +24,15 @@ constexpr int kOptionalData =
 using Attributes = vcg::tri::Allocator<CMeshO>;
 
 /// CMeshO's swap leaves the transformation (which is the layer's) but forgets these counters.
-void swapMeshes(CMeshO& layerMesh, CMeshO& other)
+void swapMeshes(CMeshO& onLayer, CMeshO& other)
 {
 	using std::swap;
-	swap(layerMesh, other);
-	swap(layerMesh.sfn, other.sfn);
-	swap(layerMesh.svn, other.svn);
-	swap(layerMesh.pfn, other.pfn);
-	swap(layerMesh.pvn, other.pvn);
-	swap(layerMesh.shot, other.shot); // back again: the camera is the layer's
+	swap(onLayer, other);
+	swap(onLayer.sfn, other.sfn);
+	swap(onLayer.svn, other.svn);
+	swap(onLayer.pfn, other.pfn);
+	swap(onLayer.pvn, other.pvn);
+	swap(onLayer.shot, other.shot); // back again: the camera is the layer's
 }
 
 } // namespace
@@ -73,26 +73,24 @@ std::uint64_t fingerprint(const CMeshO& m)
 	return hash;
 }
 
-CMeshO takeMesh(MeshModel& layer)
+std::unique_ptr<CMeshO> makeMesh(const MeshData& data)
 {
-	CMeshO mesh;
-	swapMeshes(layer.cm, mesh);
-	layer.clearDataMask(layer.dataMask() & kOptionalData);
+	auto mesh = std::make_unique<CMeshO>();
+	fromMeshData(data, *mesh);
+	// As MeshLab computes them when it opens a file.
+	vcg::tri::UpdateNormal<CMeshO>::PerVertexAngleWeighted(*mesh);
 	return mesh;
 }
 
-void putMesh(MeshModel& layer, CMeshO&& mesh, int dataMask)
+std::unique_ptr<CMeshO> exchangeMesh(MeshModel& layer, std::unique_ptr<CMeshO> mesh, int dataMask)
 {
+	auto old = std::make_unique<CMeshO>();
+	// Clearing the data mask disables the data themselves: while no mesh is there to lose them.
+	swapMeshes(layer.cm, *old);
 	layer.clearDataMask(layer.dataMask() & kOptionalData);
-	swapMeshes(layer.cm, mesh);
-	layer.updateDataMask(dataMask);
-}
-
-void showOnLayer(MeshModel& layer, const MeshData& data)
-{
-	takeMesh(layer);
-	fromMeshData(data, layer.cm);
-	layer.updateBoxAndNormals();
+	swapMeshes(layer.cm, *mesh);
+	layer.updateDataMask(dataMask & kOptionalData);
+	return old;
 }
 
 QString levelLabel(const QString& label, int level, int finest)

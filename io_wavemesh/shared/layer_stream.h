@@ -37,16 +37,15 @@ void               dropStream(CMeshO& m);
 /// Hash of the coordinates and the connectivity of the elements that are not deleted. Linear.
 std::uint64_t fingerprint(const CMeshO& m);
 
-/// Takes the mesh off the layer, with all it has. Leaves an empty one under the same transformation
-/// and camera, and the layer's data mask telling so. Streams and other attributes go with the mesh.
-CMeshO takeMesh(MeshModel& layer);
+/// A mesh for a layer, with normals and bounding box, from decoded arrays.
+std::unique_ptr<CMeshO> makeMesh(const MeshData& data);
 
-/// Puts a mesh, with the data mask its layer had, back in place of what the layer shows. The
-/// transformation and the camera stay the layer's. Bit for bit: the elements are not copied.
-void putMesh(MeshModel& layer, CMeshO&& mesh, int dataMask);
-
-/// Shows `data` in place of the layer's mesh, which is lost: coordinates, connectivity, normals.
-void showOnLayer(MeshModel& layer, const MeshData& data);
+/// Exchanges what the layer shows for `mesh`, and its data mask of optional data for `dataMask`. The
+/// transformation and the camera stay the layer's. No element is copied: what comes back can be put
+/// back, bit for bit.
+/// @return the mesh that was there, with its attributes (streams among them)
+std::unique_ptr<CMeshO>
+exchangeMesh(MeshModel& layer, std::unique_ptr<CMeshO> mesh, int dataMask = MeshModel::MM_NONE);
 
 /// `label` with " (level 3 of 9)" after it, in place of the one it may have. Nothing after it for
 /// the finest level.

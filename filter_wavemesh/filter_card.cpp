@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_card.h"
+
+#include "filter_wavemesh.h"
+
+namespace wavemesh {
+namespace {
+
+constexpr char kReference[] =
+	"<br>See:<br><i>S. Valette, R. Prost</i><br><b>\"A Wavelet-Based Progressive Compression Scheme "
+	"for Triangle Meshes: Wavemesh\"</b><br>IEEE Transactions on Visualization and Computer Graphics, "
+	"2004.";
+
+const FilterCard kSimplify = {
+	"Simplification: Wavemesh",
+	"meshing_decimation_wavemesh",
+	QString(
+		"Replaces the mesh by a coarser level of its own hierarchy, made by inverse irregular "
+		"subdivision: groups of two, three or four faces are merged into one, over the whole mesh, "
+		"level after level. Each level has 2 to 4 times fewer faces than the one before, so a "
+		"target is reached by the nearest level, not by an exact count.<br>"
+		"Vertices move to a lattice of the precision below. If the level that reaches the target is "
+		"the finest one, the mesh stays as it is. The mesh has to be an oriented manifold, with or "
+		"without border.<br>") +
+		kReference,
+	FilterPlugin::Remeshing,
+	MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE};
+
+const FilterCard kBrowse = {
+	"Wavemesh: Browse Levels",
+	"apply_wavemesh_level",
+	QString(
+		"Shows the layer at a level of detail, from the base mesh (level 0) to the finest level, "
+		"which is the layer as it was, colours and all. Nothing is lost in either direction: tick "
+		"<i>Preview</i> and drag the slider.<br>"
+		"A layer opened from a .wmc file has its levels at hand, whatever level it was opened at; "
+		"the levels of another layer are made when this dialog opens. If a layer is edited, its "
+		"levels are made anew from the edited mesh.<br>"
+		"Without <i>Preview</i>, the layer stays at the level it was shown at last.<br>") +
+		kReference,
+	FilterPlugin::Remeshing | FilterPlugin::Layer,
+	// The preview is offered only to filters that change no counts. It would restore what is named
+	// here; the levels themselves are restored by LayerLevels. The true mask goes out when applied.
+	MeshModel::MM_TRANSFMATRIX};
+
+const FilterCard kLayers = {
+	"Wavemesh: Layers from Levels",
+	"generate_wavemesh_levels",
+	QString("Makes one new layer of each chosen level of the layer, from the base mesh (level 0) up "
+			"to the finest level. The layer itself is not changed, and the new ones can be browsed "
+			"as well.<br>") +
+		kReference,
+	FilterPlugin::Layer | FilterPlugin::MeshCreation,
+	MeshModel::MM_NONE};
+
+} // namespace
+
+const FilterCard& filterCard(int filter)
+{
+	static const FilterCard none = {};
+	switch (filter) {
+	case FilterWavemeshPlugin::FP_SIMPLIFY: return kSimplify;
+	case FilterWavemeshPlugin::FP_BROWSE: return kBrowse;
+	case FilterWavemeshPlugin::FP_LAYERS: return kLayers;
+	default: return none;
+	}
+}
+
+} // namespace wavemesh

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_wavemesh.h"
+
+#include "filter_card.h"
+#include "level_list.h"
+#include "simplify_target.h"
+
+#include <shared/encode_parameters.h>
+#include <shared/plugin_support.h>
+
+#include <wavemesh/vcg_wmc.h>
+
+#include <QFileInfo>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace wavemesh;
+
+namespace {
+
+/// Coordinates of coarse levels are to look as good as the original's; size matters less here.
+EncodeOptions browsingOptions()
+{
+	EncodeOptions options;
+	options.bits = 16;
+	options.wgc  = Wgc::On;
+	return options;
+}
+
+std::map<std::string, QVariant> describe(const MeshModel& layer, const StreamInfo& info, int level)
+{
+	const LevelInfo& row = info.levels[std::size_t(level)];
+	return {
+		{"level", level},
+		{"finest_level", info.finestLevel()},
+		{"vertices", layer.cm.vn},
+		{"faces", layer.cm.fn},
+		{"bytes", countValue(row.prefix)},
+		{"error", row.error}};
+}
+
+QString sentence(const MeshModel& layer, const StreamInfo& info, int level)
+{
+	const LevelInfo& row = info.levels[std::size_t(level)];
+	return QString("Level %1 of %2: %3 vertices, %4 faces, %5 bytes, error %6.")
+		.arg(level)
+		.arg(info.finestLevel())
+		.arg(layer.cm.vn)
+		.arg(layer.cm.fn)
+		.arg(row.prefix)
+		.arg(row.error, 0, 'g', 3);
+}
+
+} // namespace
+
+FilterWavemeshPlugin::FilterWavemeshPlugin()
+{
+	typeList = {FP_SIMPLIFY, FP_BROWSE, FP_LAYERS};
+	for (ActionIDType filter : types())
+		actionList.push_back(new QAction(filterName(filter), this));
+}
+
+QString FilterWavemeshPlugin::pluginName() const
+{
+	return "FilterWavemesh";
+}
+
+QString FilterWavemeshPlugin::vendor() const
+{
+	return "Wavemesh";
+}
+
+QString FilterWavemeshPlugin::filterName(ActionIDType filter) const
+{
+	return filterCard(filter).name;
+}
+
+QString FilterWavemeshPlugin::pythonFilterName(ActionIDType filter) const
+{
+	return filterCard(filter).pythonName;
+}
+
+QString FilterWavemeshPlugin::filterInfo(ActionIDType filter) const
+{
+	return filterCard(filter).info;
+}
+
+FilterPlugin::FilterClass FilterWavemeshPlugin::getClass(const QAction* action) const
+{
+	return FilterClass(filterCard(ID(action)).classes);
+}
+
+FilterPlugin::FilterArity FilterWavemeshPlugin::filterArity(const QAction*) const
+{
+	return SINGLE_MESH;
+}
+
+int FilterWavemeshPlugin::getPreConditions(const QAction*) const
+{
+	return MeshModel::MM_FACENUMBER;
+}
+
+int FilterWavemeshPlugin::postCondition(const QAction* action) const
+{
+	return filterCard(ID(action)).postCondition;
+}
+
+RichParameterList
+FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshModel& layer)
+{
+	RichParameterList list;
+	switch (ID(action)) {
+	case FP_SIMPLIFY:
+		addTargetParameters(list, layer);
+		addEncodeParameters(list, browsingOptions());
+		break;
+	case FP_BROWSE: {
+		const auto [finest, shown] = levelRange(layer);
+		list.addParam(RichDynamicFloat(
+			"level", Scalarm(shown), 0, Scalarm(std::max(finest, 1)), "Level",
+			"0 is the base mesh, the coarsest; the largest value is the finest level, which is the "
+			"layer as it was. In scripts -1 is the finest, too. Tick <i>Preview</i> and drag."));
+		break;
+	}
+	case FP_LAYERS: addLevelListParameters(list); break;
+	default: break;
+	}
+	return list;
+}
+
+std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
+	const QAction*           action,
+	const RichParameterList& parameters,
+	MeshDocument&            document,
+	unsigned int&            postConditionMask,
+	vcg::CallBackPos*        cb)
+{
+	return guarded([&]() -> Results {
+		if (document.mm() == nullptr)
+			throw MLException("There is no layer to work on.");
+		MeshModel& layer = *document.mm();
+		// Whatever the layer had before and after may have changed with its mesh.
+		postConditionMask = MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE;
+		switch (ID(action)) {
+		case FP_SIMPLIFY: return simplify(layer, parameters, cb);
+		case FP_BROWSE: return browse(layer, parameters);
+		case FP_LAYERS: postConditionMask = MeshModel::MM_NONE; return makeLayers(document, parameters);
+		default: wrongActionCalled(action); return {};
+		}
+	});
+}
+
+FilterWavemeshPlugin::Results FilterWavemeshPlugin::simplify(
+	MeshModel& layer, const RichParameterList& parameters, vcg::CallBackPos* cb)
+{
+	const SimplifyTarget target  = simplifyTarget(parameters);
+	EncodeOptions        options = encodeOptions(parameters, browsingOptions());
+	options.progress             = progressBar(cb, "Coarsening...");
+	const auto encoded           = encode(toMeshData(layer.cm), options);
+	require(encoded.status(), "Cannot simplify " + layer.label());
+
+	const StreamInfo& info   = encoded->info;
+	const ChosenLevel chosen = chooseLevel(info, target);
+	if (!chosen.met)
+		log(GLLogStream::WARNING, "No level reaches the target: this is the closest one.");
+	if (chosen.level < info.finestLevel()) {
+		DecodeOptions upTo;
+		upTo.level         = chosen.level;
+		const auto decoded = decode(encoded->bytes.data(), encoded->bytes.size(), upTo);
+		require(decoded.status(), "Cannot simplify " + layer.label());
+		auto              coarse = makeMesh(decoded->mesh);
+		const QStringList lost   = attributesNotKept(layer);
+		if (!lost.isEmpty())
+			log(GLLogStream::WARNING,
+				("The simplified mesh does not have: " + lost.join(", ") + ".").toStdString());
+		exchangeMesh(layer, std::move(coarse));
+	}
+	log(sentence(layer, info, chosen.level).toStdString());
+	Results results          = describe(layer, info, chosen.level);
+	results["target_reached"] = chosen.met;
+	return results;
+}
+
+FilterWavemeshPlugin::Results
+FilterWavemeshPlugin::browse(MeshModel& layer, const RichParameterList& parameters)
+{
+	// No progress bar: it would let the slider's next event in while this one is being served.
+	const auto levels = levelsOf(layer);
+	const int  asked  = integerOf(parameters, "level", kFinestLevel);
+	const int  level  = asked < 0 ? levels->finest() : std::min(asked, levels->finest());
+	levels->show(layer, level);
+	layer.setLabel(levelLabel(layer.label(), level, levels->info().finestLevel()));
+	log(sentence(layer, levels->info(), level).toStdString());
+	return describe(layer, levels->info(), level);
+}
+
+FilterWavemeshPlugin::Results
+FilterWavemeshPlugin::makeLayers(MeshDocument& document, const RichParameterList& parameters)
+{
+	MeshModel&             layer  = *document.mm();
+	const auto             levels = levelsOf(layer);
+	const std::vector<int> chosen = levelList(parameters, levels->finest());
+	const int              finest = levels->info().finestLevel();
+	const QString          name   = QFileInfo(levelLabel(layer.label(), finest, finest)).completeBaseName();
+
+	QStringList rows;
+	for (int level : chosen) {
+		MeshModel* made = document.addNewMesh(
+			QString(), QString("%1 (level %2 of %3)").arg(name).arg(level).arg(finest), false);
+		levels->copyTo(*made, layer, level);
+		log(sentence(*made, levels->info(), level).toStdString());
+	}
+	return {
+		{"layers", int(chosen.size())},
+		{"from", chosen.front()},
+		{"to", chosen.back()},
+		{"finest_level", finest}};
+}
+
+std::shared_ptr<LayerLevels> FilterWavemeshPlugin::levelsOf(MeshModel& layer)
+{
+	if (auto levels = LayerLevels::find(layer))
+		return levels;
+	if (findStream(layer.cm) != nullptr)
+		log(GLLogStream::WARNING, "The layer was edited: its levels are made anew.");
+	const SharedBytes stream = encodeForBrowsing(layer);
+	const auto        info   = readInfo(stream->data(), stream->size());
+	require(info.status(), "Cannot browse " + layer.label());
+	encoded_ = {};
+	return LayerLevels::attach(layer, stream, info->finestLevel());
+}
+
+SharedBytes FilterWavemeshPlugin::encodeForBrowsing(const MeshModel& layer)
+{
+	const std::uint64_t now = fingerprint(layer.cm);
+	if (!encoded_.stream || encoded_.fingerprint != now) {
+		auto encoded = encode(toMeshData(layer.cm), browsingOptions());
+		require(encoded.status(), "Cannot make levels of " + layer.label());
+		encoded_ = {
+			now, std::make_shared<const std::vector<std::uint8_t>>(std::move(encoded->bytes))};
+	}
+	return encoded_.stream;
+}
+
+std::pair<int, int> FilterWavemeshPlugin::levelRange(const MeshModel& layer)
+{
+	try {
+		const LayerStream* kept   = findStream(layer.cm);
+		const bool         valid  = kept != nullptr && kept->fingerprint == fingerprint(layer.cm);
+		const SharedBytes  stream = valid ? kept->bytes : encodeForBrowsing(layer);
+		const auto         info   = readInfo(stream->data(), stream->size());
+		if (info.ok())
+			return {info->finestLevel(), valid ? kept->level : info->finestLevel()};
+	}
+	catch (const std::exception&) {
+		// The filter itself will say what is wrong; a dialog has no way to.
+	}
+	return {0, 0};
+}
+
+MESHLAB_PLUGIN_NAME_EXPORTER(FilterWavemeshPlugin)

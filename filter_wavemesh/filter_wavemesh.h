@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "layer_levels.h"
+
+#include <common/plugins/interfaces/filter_plugin.h>
+
+/// Simplification and level browsing on the codec. Translates between MeshLab and LayerLevels.
+class FilterWavemeshPlugin : public QObject, public FilterPlugin
+{
+	Q_OBJECT
+	MESHLAB_PLUGIN_IID_EXPORTER(FILTER_PLUGIN_IID)
+	Q_INTERFACES(FilterPlugin)
+
+public:
+	enum Filters { FP_SIMPLIFY, FP_BROWSE, FP_LAYERS };
+
+	FilterWavemeshPlugin();
+
+	QString pluginName() const override;
+	QString vendor() const override;
+
+	QString     filterName(ActionIDType filter) const override;
+	QString     pythonFilterName(ActionIDType filter) const override;
+	QString     filterInfo(ActionIDType filter) const override;
+	FilterClass getClass(const QAction* action) const override;
+	FilterArity filterArity(const QAction* action) const override;
+	int         getPreConditions(const QAction* action) const override;
+	int         postCondition(const QAction* action) const override;
+
+	RichParameterList initParameterList(const QAction* action, const MeshModel& layer) override;
+
+	std::map<std::string, QVariant> applyFilter(
+		const QAction*           action,
+		const RichParameterList& parameters,
+		MeshDocument&            document,
+		unsigned int&            postConditionMask,
+		vcg::CallBackPos*        cb) override;
+
+private:
+	using Results = std::map<std::string, QVariant>;
+
+	Results simplify(MeshModel& layer, const RichParameterList& parameters, vcg::CallBackPos* cb);
+	Results browse(MeshModel& layer, const RichParameterList& parameters);
+	Results makeLayers(MeshDocument& document, const RichParameterList& parameters);
+
+	/// The levels of the layer: those it has, or those of a new encoding of its mesh.
+	std::shared_ptr<wavemesh::LayerLevels> levelsOf(MeshModel& layer);
+	/// @throws MLException if the mesh cannot be encoded
+	wavemesh::SharedBytes encodeForBrowsing(const MeshModel& layer);
+	/// The finest level that Browse Levels can offer, and the one shown. Never throws.
+	std::pair<int, int> levelRange(const MeshModel& layer);
+
+	/// The last mesh that was encoded for browsing. The dialog has to know the number of levels
+	/// before the filter runs, when the layer may not be touched yet.
+	struct Encoded
+	{
+		std::uint64_t         fingerprint = 0;
+		wavemesh::SharedBytes stream;
+	};
+	Encoded encoded_;
+};

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "layer_levels.h"
+
+#include <shared/plugin_support.h>
+
+#include <algorithm>
+
+namespace wavemesh {
+namespace {
+
+constexpr char kLevelsAttribute[] = "wavemesh.levels";
+
+using Attributes = vcg::tri::Allocator<CMeshO>;
+
+std::shared_ptr<LayerLevels>& levelsOn(CMeshO& m)
+{
+	return Attributes::GetPerMeshAttribute<std::shared_ptr<LayerLevels>>(m, kLevelsAttribute)();
+}
+
+} // namespace
+
+LayerLevels::LayerLevels(SharedBytes stream, Decoder decoder) :
+		stream_(std::move(stream)), decoder_(std::move(decoder))
+{
+	finest_ = info().finestLevel();
+	if (stream_->size() >= info().bytes)
+		return;
+	// A cut file: the last level may be there in part, and only the decoder knows.
+	while (decoder_.level() < finest_) {
+		const Status status = decoder_.advance();
+		if (decoder_.level() == int(passed_.size()))
+			passed_.push_back(decoder_.mesh());
+		if (!status.ok())
+			break;
+	}
+	if (passed_.empty())
+		throw MLException("Wavemesh: the layer's .wmc ends before its base mesh.");
+	finest_ = decoder_.level();
+}
+
+std::shared_ptr<LayerLevels> LayerLevels::find(MeshModel& layer)
+{
+	const LayerStream* stream = findStream(layer.cm);
+	if (stream == nullptr || stream->fingerprint != fingerprint(layer.cm))
+		return nullptr;
+	std::shared_ptr<LayerLevels> levels = levelsOn(layer.cm);
+	if (levels && levels->stream_ == stream->bytes && levels->shown_ == stream->level)
+		return levels;
+	return attach(layer, stream->bytes, stream->level);
+}
+
+std::shared_ptr<LayerLevels> LayerLevels::attach(MeshModel& layer, SharedBytes stream, int shown)
+{
+	auto decoder = Decoder::open(stream->data(), stream->size());
+	require(decoder.status(), "Cannot browse the levels");
+	const std::shared_ptr<LayerLevels> levels(
+		new LayerLevels(std::move(stream), std::move(*decoder)));
+	levels->shown_ = std::clamp(shown, 0, levels->finest_);
+	levels->keepOn(layer, levels);
+	return levels;
+}
+
+void LayerLevels::detach(MeshModel& layer)
+{
+	Attributes::DeletePerMeshAttribute(layer.cm, kLevelsAttribute);
+	dropStream(layer.cm);
+}
+
+void LayerLevels::keepOn(MeshModel& layer, std::shared_ptr<LayerLevels> self) const
+{
+	keepStream(layer.cm, {stream_, shown_, fingerprint(layer.cm)});
+	levelsOn(layer.cm) = std::move(self);
+}
+
+const MeshData& LayerLevels::decoded(int level)
+{
+	while (int(passed_.size()) <= level) {
+		require(decoder_.advance(), "Cannot decode the level");
+		passed_.push_back(decoder_.mesh());
+	}
+	return passed_[std::size_t(level)];
+}
+
+void LayerLevels::show(MeshModel& layer, int level)
+{
+	if (level == shown_)
+		return;
+	const std::shared_ptr<LayerLevels> self = levelsOn(layer.cm);
+	const bool                         back = level == finest_ && away_.mesh;
+	// What can fail comes before the layer is touched.
+	std::unique_ptr<CMeshO> mesh = back ? std::move(away_.mesh) : makeMesh(decoded(level));
+
+	detach(layer); // the levels must not go away with a mesh that they keep
+	const int mask = layer.dataMask();
+	auto      old  = exchangeMesh(layer, std::move(mesh), back ? away_.dataMask : 0);
+	if (shown_ == finest_)
+		away_ = {std::move(old), mask};
+	shown_ = level;
+	keepOn(layer, self);
+}
+
+void LayerLevels::copyTo(MeshModel& other, const MeshModel& layer, int level)
+{
+	other.cm.Tr = layer.cm.Tr;
+	if (level != finest_ || (!away_.mesh && shown_ != finest_))
+		exchangeMesh(other, makeMesh(decoded(level)));
+	else if (away_.mesh)
+		exchangeMesh(other, std::make_unique<CMeshO>(*away_.mesh), away_.dataMask);
+	else
+		exchangeMesh(other, std::make_unique<CMeshO>(layer.cm), layer.dataMask());
+	attach(other, stream_, level);
+}
+
+} // namespace wavemesh

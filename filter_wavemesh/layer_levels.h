@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The levels of a layer, at hand for browsing.
+#pragma once
+
+#include <shared/layer_stream.h>
+
+#include <wavemesh/codec.h>
+
+#include <memory>
+#include <vector>
+
+namespace wavemesh {
+
+/// The levels of one layer: a decoder that goes only as far as was asked, every level it passed, and
+/// the finest mesh itself while a coarser level is shown.
+///
+/// Kept on the layer between the calls, so that it lives and dies with it.
+/// Invariant: whoever comes back to the finest level gets the mesh that was taken from the layer
+/// there, with its colours and all else, or, where there was none (a file opened at a coarse
+/// level), the decoded one.
+class LayerLevels
+{
+public:
+	/// The levels of what the layer shows, if it still shows what was last put there.
+	/// @return null if the layer has no stream, or was edited since
+	static std::shared_ptr<LayerLevels> find(MeshModel& layer);
+
+	/// Begins anew, with a stream whose level `shown` is what the layer shows: what is not decoded
+	/// from it is the layer's own. Replaces what may be on the layer.
+	static std::shared_ptr<LayerLevels> attach(MeshModel& layer, SharedBytes stream, int shown);
+
+	/// Takes levels and stream off the layer; the mesh stays as it is.
+	static void detach(MeshModel& layer);
+
+	/// What the head of the stream says of each level.
+	const StreamInfo& info() const { return decoder_.info(); }
+	/// The finest level there is: below info().finestLevel() if the stream is cut.
+	int finest() const { return finest_; }
+	int shown() const { return shown_; }
+
+	/// Shows a level, 0..finest(). Cost: decoding, once, the levels up to it that were not asked for
+	/// before; then linear in the level.
+	void show(MeshModel& layer, int level);
+
+	/// Puts a level on another layer: an exact copy of the finest mesh, or what is decoded.
+	/// @param layer  the one these levels belong to
+	void copyTo(MeshModel& other, const MeshModel& layer, int level);
+
+	const SharedBytes& stream() const { return stream_; }
+
+private:
+	LayerLevels(SharedBytes stream, Decoder decoder);
+	const MeshData& decoded(int level);
+	void            keepOn(MeshModel& layer, std::shared_ptr<LayerLevels> self) const;
+
+	/// The finest mesh while it is away from the layer.
+	struct Finest
+	{
+		std::unique_ptr<CMeshO> mesh;
+		int                     dataMask = 0;
+	};
+
+	SharedBytes           stream_; ///< what decoder_ reads
+	Decoder               decoder_;
+	std::vector<MeshData> passed_; ///< by level, as far as decoder_ went
+	Finest                away_;
+	int                   finest_ = 0;
+	int                   shown_  = 0;
+};
+
+} // namespace wavemesh
