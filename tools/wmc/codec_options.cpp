@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "codec_options.h"
+
+#include "console.h"
+#include "failure.h"
+
+#include <chrono>
+
+namespace wavemesh::tool {
+
+namespace {
+
+class Stopwatch
+{
+public:
+	double seconds() const
+	{
+		return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+	}
+
+private:
+	std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+void CodecOptions::addTo(CLI::App& command)
+{
+	const std::string group = "Codec";
+	auto* bitsOption =
+	    command
+	        .add_option(
+	            "--bits", bits, "Bits per coordinate over the largest extent of the bounding box")
+	        ->check(CLI::Range(1, 24))
+	        ->capture_default_str()
+	        ->group(group);
+	command.add_option("--step", step, "Lattice step in model units, > 0, in place of --bits")
+	    ->check(CLI::PositiveNumber)
+	    ->excludes(bitsOption)
+	    ->group(group);
+	command.add_option("--mode", mode, "Coding mode: classic is the method of the paper")
+	    ->check(CLI::IsMember({"classic"}))
+	    ->capture_default_str()
+	    ->group(group);
+	command
+	    .add_option(
+	        "--lifting", lifting,
+	        "Update step of the wavelet: off (lazy filter bank), or the k of its k-disc support")
+	    ->check(CLI::IsMember({"off", "0", "1", "2"}))
+	    ->capture_default_str()
+	    ->group(group);
+	command
+	    .add_option(
+	        "--wgc", wgc,
+	        "Wavelet geometrical criterion, keeps sharp edges in coarse levels: off, on, or auto "
+	        "(both are tried, the smaller file is kept)")
+	    ->check(CLI::IsMember({"off", "on", "auto"}))
+	    ->capture_default_str()
+	    ->group(group);
+	command
+	    .add_option(
+	        "--wgc-sharpness", sharpness,
+	        "A vertex is sharp if the sine of an incident dihedral angle is above this")
+	    ->check(CLI::Range(0.0, 1.0))
+	    ->capture_default_str()
+	    ->group(group);
+	command
+	    .add_option(
+	        "--wgc-deviation", deviation,
+	        "A sharp vertex may go if its distance to its parents' edge, over that edge's length, "
+	        "is below this (> 0)")
+	    ->check(CLI::PositiveNumber)
+	    ->capture_default_str()
+	    ->group(group);
+}
+
+EncodeOptions CodecOptions::toEncodeOptions() const
+{
+	EncodeOptions o;
+	o.mode         = Mode::Classic;
+	o.bits         = bits;
+	o.step         = step;
+	o.lifting      = lifting == "off" ? kLiftingOff : lifting[0] - '0';
+	o.wgc          = wgc == "off" ? Wgc::Off : wgc == "on" ? Wgc::On : Wgc::Auto;
+	o.wgcSharpness = sharpness;
+	o.wgcDeviation = deviation;
+	return o;
+}
+
+std::string nameOf(LevelKind kind)
+{
+	switch (kind) {
+	case LevelKind::Base:
+		return "base";
+	case LevelKind::Split:
+		return "split";
+	}
+	return "unknown";
+}
+
+std::string nameOf(Mode mode)
+{
+	switch (mode) {
+	case Mode::Classic:
+		return "classic";
+	}
+	return "unknown";
+}
+
+std::string nameOfLifting(int lifting)
+{
+	return lifting == kLiftingOff ? "off" : std::to_string(lifting);
+}
+
+std::string nameOf(const EncodeOptions& o)
+{
+	return nameOf(o.mode) + ", " +
+	       (o.step > 0 ? "step " + significant(o.step, 6) : std::to_string(o.bits) + " bits") +
+	       ", lifting " + nameOfLifting(o.lifting) + ", wgc " +
+	       (o.wgc == Wgc::Off  ? "off"
+	        : o.wgc == Wgc::On ? "on"
+	                           : "auto");
+}
+
+std::string messageOf(const std::string& path, const Status& status)
+{
+	std::string message = path + ": " + status.what;
+	if (status.byteOffset != Status::kNoOffset &&
+	    status.what.find(std::to_string(status.byteOffset)) == std::string::npos)
+		message += " (byte " + std::to_string(status.byteOffset) + ")";
+	return message;
+}
+
+EncodedMesh encodeMesh(
+    const std::string& path, const MeshData& mesh, const EncodeOptions& options, double* seconds)
+{
+	ProgressLine line("encoding " + path);
+	EncodeOptions withProgress = options;
+	withProgress.progress      = line.callback();
+	const Stopwatch watch;
+	auto encoded = encode(mesh, withProgress);
+	if (seconds)
+		*seconds = watch.seconds();
+	if (!encoded.ok())
+		throw Failure(messageOf(path, encoded.status()));
+	return std::move(encoded.value());
+}
+
+Result<DecodedMesh>
+decodeBytes(const std::string& path, const Bytes& bytes, DecodeOptions options, double* seconds)
+{
+	ProgressLine line("decoding " + path);
+	options.progress = line.callback();
+	const Stopwatch watch;
+	auto decoded = decode(bytes.data(), bytes.size(), options);
+	if (seconds)
+		*seconds = watch.seconds();
+	if (!decoded.hasValue())
+		throw Failure(messageOf(path, decoded.status()));
+	return decoded;
+}
+
+} // namespace wavemesh::tool

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "info_json.h"
+
+#include "codec_options.h"
+#include "console.h"
+
+#include <cstdio>
+
+namespace wavemesh::tool {
+
+double bitsPerVertex(std::uint64_t bytes, std::uint64_t vertices)
+{
+	return vertices == 0 ? 0 : 8.0 * static_cast<double>(bytes) / static_cast<double>(vertices);
+}
+
+Json toJson(const StreamInfo& info)
+{
+	const std::uint64_t other = info.bytes - info.connectivityBytes - info.geometryBytes;
+	Json j;
+	j["version"]  = std::to_string(info.versionMajor) + "." + std::to_string(info.versionMinor);
+	j["mode"]     = nameOf(info.mode);
+	j["lifting"]  = nameOfLifting(info.lifting);
+	j["wgc"]      = info.wgc ? "on" : "off";
+	j["bits"]     = info.bits;
+	j["step"]     = info.step;
+	j["origin"]   = info.origin;
+	j["vertices"] = info.vertices;
+	j["faces"]    = info.faces;
+	j["bytes"]    = info.bytes;
+	j["bits_per_vertex"] = {
+	    {"total", bitsPerVertex(info.bytes, info.vertices)},
+	    {"connectivity", bitsPerVertex(info.connectivityBytes, info.vertices)},
+	    {"geometry", bitsPerVertex(info.geometryBytes, info.vertices)},
+	    {"other", bitsPerVertex(other, info.vertices)}};
+	j["levels"] = Json::array();
+	for (std::size_t i = 0; i < info.levels.size(); ++i) {
+		const LevelInfo& level = info.levels[i];
+		j["levels"].push_back(
+		    {{"level", i},
+		     {"kind", nameOf(level.kind)},
+		     {"vertices", level.vertices},
+		     {"faces", level.faces},
+		     {"bytes", level.bytes},
+		     {"prefix", level.prefix},
+		     {"bits", level.bits},
+		     {"error", level.error}});
+	}
+	j["encode_seconds"] = nullptr;
+	j["decode_seconds"] = nullptr;
+	return j;
+}
+
+void printInfo(const StreamInfo& info)
+{
+	auto bpv = [&](std::uint64_t bytes) { return fixed(bitsPerVertex(bytes, info.vertices), 2); };
+	std::printf(
+	    "%s vertices, %s faces, %s bytes, %s bits per vertex\n", grouped(info.vertices).c_str(),
+	    grouped(info.faces).c_str(), grouped(info.bytes).c_str(), bpv(info.bytes).c_str());
+	std::printf(
+	    "connectivity %s, geometry %s, other %s bits per vertex\n",
+	    bpv(info.connectivityBytes).c_str(), bpv(info.geometryBytes).c_str(),
+	    bpv(info.bytes - info.connectivityBytes - info.geometryBytes).c_str());
+	std::printf(
+	    "version %d.%d, mode %s, %d bits per coordinate (step %s), lifting %s, wgc %s\n\n",
+	    info.versionMajor, info.versionMinor, nameOf(info.mode).c_str(), info.bits,
+	    significant(info.step, 6).c_str(), nameOfLifting(info.lifting).c_str(),
+	    info.wgc ? "on" : "off");
+	Table table({"level", "kind", "vertices", "faces", "bytes", "up to here", "bpv", "error"});
+	for (std::size_t i = 0; i < info.levels.size(); ++i) {
+		const LevelInfo& level = info.levels[i];
+		table.add(
+		    {std::to_string(i), nameOf(level.kind), grouped(level.vertices), grouped(level.faces),
+		     grouped(level.bytes), grouped(level.prefix), bpv(level.prefix),
+		     significant(level.error, 4)});
+	}
+	table.print();
+}
+
+void printJson(const Json& object)
+{
+	std::puts(object.dump(1, '\t').c_str());
+}
+
+} // namespace wavemesh::tool

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.h"
+#include "console.h"
+#include "failure.h"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace {
+
+using namespace wavemesh::tool;
+
+/// CLI11's own message in one line.
+int reportUsage(const CLI::App& app, const CLI::ParseError& error)
+{
+	if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) // --help, --version
+		return app.exit(error);
+	std::string line = error.what();
+	for (char& c : line)
+		c = c == '\n' ? ' ' : c;
+	printError(line + "; see wmc --help");
+	return kUsage;
+}
+
+int run(int argc, char** argv)
+{
+	CLI::App app("Progressive, lossless compression of triangle meshes (.wmc)", "wmc");
+	Command chosen;
+	app.set_version_flag("--version", "wmc " WAVEMESH_VERSION);
+	app.require_subcommand(1);
+	app.footer(
+	    "Exit codes: 0 fine; 1 refused input, corrupt file, or output that cannot be written; "
+	    "2 usage.\n'wmc COMMAND --help' tells each command's options, with units and defaults.\n"
+	    "Bits per vertex (bpv) count the whole file and the vertices of the original.");
+	addEncode(app, chosen);
+	addDecode(app, chosen);
+	addInfo(app, chosen);
+	addVerify(app, chosen);
+	addReport(app, chosen);
+	addBench(app, chosen);
+	try {
+		app.parse(argc, argv);
+	}
+	catch (const CLI::ParseError& error) {
+		return reportUsage(app, error);
+	}
+	const int code = chosen();
+	if (std::fflush(stdout) != 0)
+		throw Failure("the output cannot be written");
+	return code;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+	try {
+		return run(argc, argv);
+	}
+	catch (const UsageError& error) {
+		printError(error.what());
+		return kUsage;
+	}
+	catch (const std::bad_alloc&) {
+		printError("out of memory");
+	}
+	catch (const std::exception& error) {
+		printError(error.what());
+	}
+	return kRefused;
+}

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// verify: holds a file's promises against the original.
+#include "codec_options.h"
+#include "commands.h"
+#include "console.h"
+#include "failure.h"
+#include "info_json.h"
+#include "isomorphism.h"
+#include "level_check.h"
+#include "mesh_files.h"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+namespace wavemesh::tool {
+
+namespace {
+
+struct Promise
+{
+	std::string name, broken; ///< `broken` is empty if it holds
+};
+
+/// Lattice points of model coordinates, worked out here and not by the codec: (x - origin) / step,
+/// to the nearest, ties away from zero.
+LabelledMesh onLattice(const MeshData& mesh, const StreamInfo& info)
+{
+	LabelledMesh out;
+	out.triangles = mesh.triangles;
+	out.labels.reserve(mesh.positions.size());
+	for (const auto& p : mesh.positions) {
+		std::array<std::int64_t, 3> q;
+		for (std::size_t k = 0; k < 3; ++k)
+			q[k] = std::llround((p[k] - info.origin[k]) / info.step);
+		out.labels.push_back(q);
+	}
+	return out;
+}
+
+/// Every coordinate of the finest mesh must be origin + step * integer.
+std::string offLattice(const MeshData& mesh, const StreamInfo& info)
+{
+	for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const double x = mesh.positions[v][k];
+			const double n = std::round((x - info.origin[k]) / info.step);
+			if (!(n >= 0 && n < 16777216) || x != info.origin[k] + info.step * n)
+				return "vertex " + std::to_string(v) + " of the finest level is off the lattice";
+		}
+	return {};
+}
+
+std::string checkTable(const StreamInfo& info, std::uint64_t size)
+{
+	if (info.levels.empty())
+		return "the level table is empty";
+	if (size != info.bytes)
+		return "the file has " + std::to_string(size) + " bytes and declares " +
+		       std::to_string(info.bytes);
+	std::uint64_t sum = 0;
+	for (std::size_t i = 0; i < info.levels.size(); ++i) {
+		const LevelInfo& l     = info.levels[i];
+		const LevelInfo& last  = info.levels[i == 0 ? 0 : i - 1];
+		const std::string name = "level " + std::to_string(i);
+		sum += l.bytes;
+		if (l.prefix > size || l.prefix < last.prefix)
+			return name + " declares an impossible prefix";
+		if (l.vertices < last.vertices || l.faces < last.faces || l.faces / 4 > last.faces)
+			return name + " declares impossible counts";
+		if (!std::isfinite(l.error) || l.error < 0)
+			return name + " declares an impossible error";
+	}
+	if (sum != size)
+		return "the levels' bytes do not add up to the file's";
+	if (info.levels.back().vertices != info.vertices || info.levels.back().faces != info.faces)
+		return "the finest level's counts are not the original's";
+	if (info.levels.back().error != 0)
+		return "the finest level declares an error";
+	return {};
+}
+
+/// With the lazy filter bank a vertex never moves.
+bool hasMoved(const MeshData& coarse, const MeshData& fine)
+{
+	return !std::equal(
+	    coarse.positions.begin(), coarse.positions.end(), fine.positions.begin(),
+	    fine.positions.begin() + static_cast<std::ptrdiff_t>(coarse.positions.size()));
+}
+
+bool same(const MeshData& a, const MeshData& b)
+{
+	return a.positions == b.positions && a.triangles == b.triangles;
+}
+
+/// Every level decodes, as declared, manifold, with the topology of all others.
+std::string checkLevels(const Bytes& file, MeshData& finest)
+{
+	auto decoder = Decoder::open(file.data(), file.size());
+	if (!decoder.ok())
+		return decoder.status().what;
+	const StreamInfo& info = decoder->info();
+	ProgressLine line("checking levels");
+	MeshData last;
+	Topology first;
+	for (int i = 0; i <= info.finestLevel(); ++i) {
+		line.show(double(i) / double(info.levels.size()));
+		const LevelInfo& level = info.levels[static_cast<std::size_t>(i)];
+		const std::string name = "level " + std::to_string(i) + ": ";
+		if (const Status s = decoder->advance(); !s.ok())
+			return name + s.what;
+		if (decoder->level() != i)
+			return name + "the decoder went to level " + std::to_string(decoder->level());
+		const MeshData mesh = decoder->mesh();
+		if (mesh.positions.size() != level.vertices || mesh.triangles.size() != level.faces)
+			return name + "not as many vertices and faces as declared";
+		Topology topology;
+		if (const std::string wrong = whatVcgFindsWrong(mesh, topology); !wrong.empty())
+			return name + wrong;
+		if (i == 0)
+			first = topology;
+		if (!(topology == first))
+			return name + "other components, boundaries or genus than level 0";
+		if (i > 0 && info.lifting == kLiftingOff && hasMoved(last, mesh))
+			return name + "a vertex moved although lifting is off";
+		last = mesh;
+	}
+	finest = std::move(last);
+	return {};
+}
+
+/// The declared prefix of every level holds that level whole, and nothing shorter does.
+std::string checkPrefixes(const Bytes& file, const StreamInfo& info)
+{
+	ProgressLine line("checking prefixes");
+	for (int i = 0; i <= info.finestLevel(); ++i) {
+		line.show(double(i) / double(info.levels.size()));
+		const std::string name     = "level " + std::to_string(i) + ": ";
+		const std::uint64_t prefix = info.levels[static_cast<std::size_t>(i)].prefix;
+		DecodeOptions options;
+		options.level    = i;
+		const auto whole = decode(file.data(), file.size(), options);
+		// In a buffer of its own, so that reading past it is not reading the rest of the file.
+		const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(prefix));
+		const auto part = decode(cut.data(), cut.size(), options);
+		if (!whole.ok() || !part.ok() || part->level != i || !same(whole->mesh, part->mesh))
+			return name + "is not whole in the prefix declared";
+		options.maxBytes   = prefix - 1;
+		const auto shorter = decode(file.data(), file.size(), options);
+		if (shorter.ok() || shorter.status().code != StatusCode::Truncated)
+			return name + "a shorter prefix than declared is not told to be truncated";
+	}
+	return {};
+}
+
+struct Verify
+{
+	std::string original, in;
+	bool json = false;
+
+	int run() const
+	{
+		const Bytes file = readFile(in);
+		const auto info  = readInfo(file.data(), file.size());
+		if (!info.ok())
+			throw Failure(messageOf(in, info.status()));
+		const MeshData mesh = loadMesh(original);
+
+		std::vector<Promise> promises;
+		promises.push_back({"level table", checkTable(*info, file.size())});
+		double seconds = 0;
+		DecodedMesh decoded;
+		Status status;
+		try {
+			auto result = decodeBytes(in, file, {}, &seconds);
+			status      = result.status();
+			decoded     = std::move(*result);
+		}
+		catch (const Failure& failure) {
+			status = Status(StatusCode::Corrupt, failure.what());
+		}
+		promises.push_back({"decodes whole", status.ok() ? "" : status.what});
+		if (status.ok()) {
+			MeshData finest;
+			promises.push_back({"levels manifold and as declared", checkLevels(file, finest)});
+			if (promises.back().broken.empty() && !same(finest, decoded.mesh))
+				promises.back().broken = "level by level the finest mesh is another";
+			promises.push_back({"prefixes", checkPrefixes(file, *info)});
+			promises.push_back({"lattice-lossless", offLattice(decoded.mesh, *info)});
+			if (promises.back().broken.empty())
+				promises.back().broken =
+				    whatDiffers(onLattice(mesh, *info), onLattice(decoded.mesh, *info));
+		}
+		return report(promises, *info, seconds);
+	}
+
+	int report(const std::vector<Promise>& promises, const StreamInfo& info, double seconds) const
+	{
+		const Promise* broken = nullptr;
+		for (const Promise& p : promises)
+			if (!p.broken.empty() && !broken)
+				broken = &p;
+		if (json) {
+			Json j        = {{"file", in}, {"original", original}, {"ok", !broken}};
+			j["promises"] = Json::array();
+			for (const Promise& p : promises)
+				j["promises"].push_back(
+				    {{"name", p.name},
+				     {"ok", p.broken.empty()},
+				     {"broken", p.broken.empty() ? Json() : Json(p.broken)}});
+			j.update(toJson(info));
+			j["decode_seconds"] = seconds;
+			printJson(j);
+		}
+		else
+			for (const Promise& p : promises)
+				std::printf("%-7s %s\n", p.broken.empty() ? "ok" : "BROKEN", p.name.c_str());
+		if (broken)
+			printError(in + ": " + broken->name + ": " + broken->broken);
+		return broken ? kRefused : kFine;
+	}
+};
+
+} // namespace
+
+void addVerify(CLI::App& app, Command& chosen)
+{
+	auto c        = std::make_shared<Verify>();
+	auto* command = app.add_subcommand(
+	    "verify", "Check every promise of a .wmc against the mesh that it was made of");
+	command->add_option("ORIGINAL", c->original, "The mesh: .ply, .obj, .off or .stl")->required();
+	command->add_option("IN", c->in, "The file, .wmc")->required();
+	command->add_flag("--json", c->json, "Print one JSON object on stdout and nothing else");
+	command->footer(
+	    "Exit code 0 only if the finest level is the original on the file's lattice up to the\n"
+	    "numbering of vertices and faces, every level decodes, is manifold and as declared, and\n"
+	    "every declared prefix holds its level whole. 1 otherwise.");
+	command->callback([&chosen, c] { chosen = [c] { return c->run(); }; });
+}
+
+} // namespace wavemesh::tool
