@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# cmake -D plugins=<files> -P check_needed.cmake: fails if a plugin needs a shared library that not
+# every MeshLab brings along, or does not name MeshLab's own (PyMeshLab would not find it then).
+set(allowed
+	"^(libQt5(Core|Gui|Widgets)\\.so\\.5|libmeshlab-common\\.so|libstdc\\+\\+\\.so\\.6|libm\\.so\\.6|libgcc_s\\.so\\.1|libc\\.so\\.6|ld-linux[-a-z0-9_]*\\.so\\.[0-9])$")
+cmake_minimum_required(VERSION 3.22)
+foreach(plugin ${plugins})
+	execute_process(COMMAND readelf -d ${plugin} OUTPUT_VARIABLE dynamic COMMAND_ERROR_IS_FATAL ANY)
+	string(REGEX MATCHALL "\\(NEEDED\\)[^\n]*\\[[^]]+\\]" entries "${dynamic}")
+	set(needed "")
+	foreach(entry ${entries})
+		string(REGEX REPLACE ".*\\[([^]]+)\\].*" "\\1" library "${entry}")
+		list(APPEND needed ${library})
+		if(NOT library MATCHES "${allowed}")
+			message(FATAL_ERROR "${plugin} needs ${library}")
+		endif()
+	endforeach()
+	if(NOT "libmeshlab-common.so" IN_LIST needed)
+		message(FATAL_ERROR "${plugin} does not name libmeshlab-common.so: ${needed}")
+	endif()
+	if(dynamic MATCHES "\\((RPATH|RUNPATH)\\)")
+		message(FATAL_ERROR "${plugin} has a run path:\n${dynamic}")
+	endif()
+	message(STATUS "${plugin}: ${needed}")
+endforeach()
