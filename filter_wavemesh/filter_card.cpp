@@ -16,12 +16,9 @@ const FilterCard kSimplify = {
 	"meshing_decimation_wavemesh",
 	QString(
 		"Replaces the mesh by a coarser level of its own hierarchy, made by inverse irregular "
-		"subdivision: groups of two, three or four faces are merged into one, over the whole mesh, "
-		"level after level. Each level has 2 to 4 times fewer faces than the one before, so a "
-		"target is reached by the nearest level, not by an exact count.<br>"
-		"Vertices move to a lattice of the precision below. If the level that reaches the target is "
-		"the finest one, the mesh stays as it is. The mesh has to be an oriented manifold, with or "
-		"without border.<br>") +
+		"subdivision: over the whole mesh, groups of two, three or four faces are merged into one. "
+		"The target is reached by the nearest level, not by an exact count. If that is the finest "
+		"level, the mesh stays as it is.<br>") +
 		kReference,
 	FilterPlugin::Remeshing,
 	MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE};
@@ -29,15 +26,11 @@ const FilterCard kSimplify = {
 const FilterCard kBrowse = {
 	"Wavemesh: Browse Levels",
 	"apply_wavemesh_level",
-	QString(
-		"Shows the layer at a level of detail, from the base mesh (level 0) to the finest level, "
-		"which is the layer as it was, colours and all. Nothing is lost in either direction: tick "
-		"<i>Preview</i> and drag the slider.<br>"
-		"A layer opened from a .wmc file has its levels at hand, whatever level it was opened at; "
-		"the levels of another layer are made when this dialog opens. If a layer is edited, its "
-		"levels are made anew from the edited mesh.<br>"
-		"Without <i>Preview</i>, the layer stays at the level it was shown at last.<br>") +
-		kReference,
+	"Shows the layer at a level of detail: tick <i>Preview</i> and drag the slider. 0 is the base "
+	"mesh, the coarsest; the finest level is the layer as it was, colours and all. Nothing is lost "
+	"in either direction.<br>"
+	"A layer opened from a .wmc file has its levels at hand; those of another layer were made when "
+	"this dialog opened. The levels of an edited layer are made anew from the edited mesh.",
 	FilterPlugin::Remeshing | FilterPlugin::Layer,
 	// The preview is offered only to filters that change no counts. It would restore what is named
 	// here; the levels themselves are restored by LayerLevels. The true mask goes out when applied.
@@ -46,10 +39,8 @@ const FilterCard kBrowse = {
 const FilterCard kLayers = {
 	"Wavemesh: Layers from Levels",
 	"generate_wavemesh_levels",
-	QString("Makes one new layer of each chosen level of the layer, from the base mesh (level 0) up "
-			"to the finest level. The layer itself is not changed, and the new ones can be browsed "
-			"as well.<br>") +
-		kReference,
+	"Makes one new layer of each chosen level of the layer, from the base mesh (level 0) up to the "
+	"finest level. The layer itself is not changed, and the new ones can be browsed as well.",
 	FilterPlugin::Layer | FilterPlugin::MeshCreation,
 	MeshModel::MM_NONE};
 

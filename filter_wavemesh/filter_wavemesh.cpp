@@ -107,13 +107,15 @@ int FilterWavemeshPlugin::postCondition(const QAction* action) const
 }
 
 RichParameterList
-FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshModel& layer)
+FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshDocument& document)
 {
+	const MeshModel   none(-1, QString(), QString());
+	const MeshModel&  layer = document.mm() != nullptr ? *document.mm() : none;
 	RichParameterList list;
 	switch (ID(action)) {
 	case FP_SIMPLIFY:
 		addTargetParameters(list, layer);
-		addEncodeParameters(list, browsingOptions());
+		addEncodeParameters(list, browsingOptions(), true);
 		break;
 	case FP_BROWSE: {
 		const auto [finest, shown] = levelRange(layer);
@@ -144,7 +146,7 @@ std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
 		postConditionMask = MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE;
 		switch (ID(action)) {
 		case FP_SIMPLIFY: return simplify(layer, parameters, cb);
-		case FP_BROWSE: return browse(layer, parameters);
+		case FP_BROWSE: return browse(layer, parameters, postConditionMask);
 		case FP_LAYERS: postConditionMask = MeshModel::MM_NONE; return makeLayers(document, parameters);
 		default: wrongActionCalled(action); return {};
 		}
@@ -182,15 +184,19 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::simplify(
 	return results;
 }
 
-FilterWavemeshPlugin::Results
-FilterWavemeshPlugin::browse(MeshModel& layer, const RichParameterList& parameters)
+FilterWavemeshPlugin::Results FilterWavemeshPlugin::browse(
+	MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask)
 {
 	// No progress bar: it would let the slider's next event in while this one is being served.
 	const auto levels = levelsOf(layer);
 	const int  asked  = integerOf(parameters, "level", kFinestLevel);
 	const int  level  = asked < 0 ? levels->finest() : std::min(asked, levels->finest());
+	if (level == levels->shown())
+		postConditionMask = MeshModel::MM_NONE; // nothing to draw anew
 	levels->show(layer, level);
-	layer.setLabel(levelLabel(layer.label(), level, levels->info().finestLevel()));
+	const int whole = levels->info().finestLevel();
+	layer.setLabel(
+		level == whole ? plainLabel(layer.label()) : levelLabel(layer.label(), level, whole));
 	log(sentence(layer, levels->info(), level).toStdString());
 	return describe(layer, levels->info(), level);
 }
@@ -202,12 +208,11 @@ FilterWavemeshPlugin::makeLayers(MeshDocument& document, const RichParameterList
 	const auto             levels = levelsOf(layer);
 	const std::vector<int> chosen = levelList(parameters, levels->finest());
 	const int              finest = levels->info().finestLevel();
-	const QString          name   = QFileInfo(levelLabel(layer.label(), finest, finest)).completeBaseName();
+	const QString          name   = QFileInfo(plainLabel(layer.label())).completeBaseName();
 
-	QStringList rows;
 	for (int level : chosen) {
-		MeshModel* made = document.addNewMesh(
-			QString(), QString("%1 (level %2 of %3)").arg(name).arg(level).arg(finest), false);
+		MeshModel* made =
+			document.addNewMesh(QString(), levelLabel(name, level, finest), false);
 		levels->copyTo(*made, layer, level);
 		log(sentence(*made, levels->info(), level).toStdString());
 	}

@@ -28,7 +28,8 @@ public:
 	int         getPreConditions(const QAction* action) const override;
 	int         postCondition(const QAction* action) const override;
 
-	RichParameterList initParameterList(const QAction* action, const MeshModel& layer) override;
+	RichParameterList
+	initParameterList(const QAction* action, const MeshDocument& document) override;
 
 	std::map<std::string, QVariant> applyFilter(
 		const QAction*           action,
@@ -41,7 +42,10 @@ private:
 	using Results = std::map<std::string, QVariant>;
 
 	Results simplify(MeshModel& layer, const RichParameterList& parameters, vcg::CallBackPos* cb);
-	Results browse(MeshModel& layer, const RichParameterList& parameters);
+	Results browse(
+		MeshModel&               layer,
+		const RichParameterList& parameters,
+		unsigned int&            postConditionMask);
 	Results makeLayers(MeshDocument& document, const RichParameterList& parameters);
 
 	/// The levels of the layer: those it has, or those of a new encoding of its mesh.

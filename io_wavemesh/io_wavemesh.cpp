@@ -45,11 +45,10 @@ int wholeLevels(const StreamInfo& info, std::uint64_t size)
 }
 
 /// Shows `mesh`, level `level` of `stream`, and leaves the stream on the layer for filter_wavemesh.
-void fillLayer(MeshModel& layer, const MeshData& mesh, int level, int finest, SharedBytes stream)
+void fillLayer(MeshModel& layer, const MeshData& mesh, int level, SharedBytes stream)
 {
 	exchangeMesh(layer, makeMesh(mesh));
 	keepStream(layer.cm, {std::move(stream), level, fingerprint(layer.cm)});
-	layer.setLabel(levelLabel(layer.label(), level, finest));
 }
 
 /// "18 432 bytes" and the like.
@@ -143,12 +142,9 @@ void IOWavemeshPlugin::open(
 		const int finest = decoder->info().finestLevel();
 		for (MeshModel* layer : layers) {
 			require(decoder->advance(), "Cannot open " + fileName);
-			fillLayer(*layer, decoder->mesh(), decoder->level(), finest, bytes);
-			// Told of every one, the finest too: several layers come from one file.
-			layer->setLabel(QString("%1 (level %2 of %3)")
-								.arg(QFileInfo(fileName).fileName())
-								.arg(decoder->level())
-								.arg(finest));
+			fillLayer(*layer, decoder->mesh(), decoder->level(), bytes);
+			layer->setLabel(
+				levelLabel(QFileInfo(fileName).fileName(), decoder->level(), finest));
 			masks.push_back(0);
 			if (progress)
 				progress(double(masks.size()) / double(layers.size()));
@@ -185,7 +181,11 @@ void IOWavemeshPlugin::open(
 			require(decoded.status(), "Cannot open " + fileName);
 
 		const StreamInfo& info = decoded->info;
-		fillLayer(layer, decoded->mesh, decoded->level, info.finestLevel(), bytes);
+		fillLayer(layer, decoded->mesh, decoded->level, bytes);
+		layer.setLabel(
+			decoded->level == info.finestLevel() ?
+				plainLabel(layer.label()) :
+				levelLabel(layer.label(), decoded->level, info.finestLevel()));
 		mask = 0;
 		if (decoded.status().code == StatusCode::Truncated && bytes->size() < request.maxBytes)
 			warn(QString("%1 is cut: %2 of %3 are there. Level %4 of %5 is shown. (%6)")

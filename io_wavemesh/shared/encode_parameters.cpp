@@ -5,16 +5,19 @@
 
 namespace wavemesh {
 
-void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults)
+void addEncodeParameters(
+	RichParameterList& list, const EncodeOptions& defaults, bool hidePrecision)
 {
 	list.addParam(RichInt(
 		"bits", defaults.bits, "Precision (bits per coordinate)",
 		"Vertices are moved to a lattice of 2^bits points over the largest extent of the bounding "
-		"box, 1 to 24 bits. 12 bits keep about 1/8000 of the extent, 16 bits about 1/130000."));
+		"box, 1 to 24 bits. 12 bits keep about 1/8000 of the extent, 16 bits about 1/130000.",
+		hidePrecision));
 	list.addParam(RichFloat(
 		"step", Scalarm(defaults.step), "Lattice step (model units, 0 = use bits)",
 		"Distance of two lattice points in model units, in place of the number of bits: no "
-		"coordinate moves by more than half of it. 0: the step follows from the bits."));
+		"coordinate moves by more than half of it. 0: the step follows from the bits.",
+		hidePrecision));
 	list.addParam(RichEnum(
 		"wgc", int(defaults.wgc), {"off", "on", "auto"}, "Geometrical criterion (WGC)",
 		"Wavelet geometrical criterion: keep the vertices of sharp edges and corners in the coarse "

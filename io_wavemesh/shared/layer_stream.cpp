@@ -95,9 +95,15 @@ std::unique_ptr<CMeshO> exchangeMesh(MeshModel& layer, std::unique_ptr<CMeshO> m
 
 QString levelLabel(const QString& label, int level, int finest)
 {
-	static const QRegularExpression ours(" \\(level \\d+ of \\d+\\)$");
-	const QString                   plain = QString(label).remove(ours);
-	return level >= finest ? plain : QString("%1 (level %2 of %3)").arg(plain).arg(level).arg(finest);
+	QString   text   = plainLabel(label);
+	const int suffix = text.lastIndexOf('.');
+	return text.insert(
+		suffix < 0 ? text.size() : suffix, QString(" (level %1 of %2)").arg(level).arg(finest));
+}
+
+QString plainLabel(QString label)
+{
+	return label.remove(QRegularExpression(" \\(level \\d+ of \\d+\\)(?=(\\.[^.]*)?$)"));
 }
 
 QStringList attributesNotKept(const MeshModel& layer)

@@ -47,9 +47,12 @@ std::unique_ptr<CMeshO> makeMesh(const MeshData& data);
 std::unique_ptr<CMeshO>
 exchangeMesh(MeshModel& layer, std::unique_ptr<CMeshO> mesh, int dataMask = MeshModel::MM_NONE);
 
-/// `label` with " (level 3 of 9)" after it, in place of the one it may have. Nothing after it for
-/// the finest level.
+/// A layer's label with the level in it: "bunny.wmc" becomes "bunny (level 3 of 9).wmc", since
+/// MeshLab's list of layers hides what looks like a suffix. Replaces the level it may have.
 QString levelLabel(const QString& label, int level, int finest);
+
+/// The label without the level.
+QString plainLabel(QString label);
 
 /// What the layer has that a level cannot hold yet, in a user's words: "vertex colours", ...
 QStringList attributesNotKept(const MeshModel& layer);
