@@ -39,7 +39,7 @@ void swapMeshes(CMeshO& onLayer, CMeshO& other)
 
 const LayerStream* findStream(const CMeshO& m)
 {
-	const auto handle = Attributes::FindPerMeshAttribute<LayerStream>(m, kStreamAttribute);
+	auto handle = Attributes::FindPerMeshAttribute<LayerStream>(m, kStreamAttribute);
 	return Attributes::IsValidHandle(m, handle) && handle().bytes ? &handle() : nullptr;
 }
 
