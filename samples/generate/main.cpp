@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writes the sample meshes, as binary PLY in single precision, into the folder given.
+#include "mesh_check.h"
+#include "shapes.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+namespace {
+
+using wavemesh::MeshData;
+using Colours = std::vector<std::array<std::uint8_t, 4>>;
+
+template <class T>
+void put(std::string& out, T value)
+{
+	out.append(reinterpret_cast<const char*>(&value), sizeof value); // little-endian machines only
+}
+
+std::string asPly(const MeshData& mesh, const Colours& colours)
+{
+	std::string out =
+	    "ply\nformat binary_little_endian 1.0\ncomment Wavemesh sample\nelement vertex " +
+	    std::to_string(mesh.positions.size()) +
+	    "\nproperty float x\nproperty float y\nproperty float z\n";
+	if (!colours.empty())
+		out +=
+		    "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";
+	out += "element face " + std::to_string(mesh.triangles.size()) +
+	       "\nproperty list uchar int vertex_indices\nend_header\n";
+	for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+		for (double x : mesh.positions[v])
+			put(out, static_cast<float>(x));
+		if (!colours.empty())
+			for (std::uint8_t c : colours[v])
+				put(out, c);
+	}
+	for (const auto& t : mesh.triangles) {
+		put(out, std::uint8_t {3});
+		for (std::uint32_t v : t)
+			put(out, static_cast<std::int32_t>(v));
+	}
+	return out;
+}
+
+/// Beyond being manifold, no sample has a face without area.
+std::string whatIsWrong(const MeshData& mesh)
+{
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+		const auto& t = mesh.triangles[f];
+		double n      = 0;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+			const auto &a = mesh.positions[t[0]], &b = mesh.positions[t[1]],
+			           &c  = mesh.positions[t[2]];
+			const double x = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
+			n += x * x;
+		}
+		if (!(std::sqrt(n) > 1e-9))
+			return "face " + std::to_string(f) + " has no area";
+	}
+	return {};
+}
+
+bool write(
+    const std::string& folder, const char* name, const MeshData& mesh, const Colours& colours = {})
+{
+	wavemesh::test::Topology t;
+	std::string wrong = wavemesh::test::whatIsNotManifold(mesh, &t);
+	if (wrong.empty())
+		wrong = whatIsWrong(mesh);
+	if (!wrong.empty()) {
+		std::fprintf(stderr, "%s: %s\n", name, wrong.c_str());
+		return false;
+	}
+	const std::string ply  = asPly(mesh, colours);
+	const std::string path = folder + "/" + name;
+	std::ofstream file(path, std::ios::binary);
+	file.write(ply.data(), static_cast<std::streamsize>(ply.size()));
+	if (!file.flush()) {
+		std::fprintf(stderr, "%s: cannot be written\n", path.c_str());
+		return false;
+	}
+	std::printf(
+	    "%-12s %5zu vertices %6zu faces, %u components, %u boundary loops, genus %lld\n", name,
+	    mesh.positions.size(), mesh.triangles.size(), t.components, t.boundaryLoops,
+	    static_cast<long long>(t.genus));
+	return true;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+	using namespace wavemesh::samples;
+	if (argc != 2) {
+		std::fprintf(stderr, "usage: generate_samples FOLDER\n");
+		return 2;
+	}
+	const std::string folder = argv[1];
+	const MeshData vase      = makeVase();
+	bool ok                  = write(folder, "blob.ply", makeBlob());
+	ok                       = write(folder, "bracket.ply", makeBracket()) && ok;
+	ok                       = write(folder, "island.ply", makeIsland()) && ok;
+	ok                       = write(folder, "pebble.ply", makePebble()) && ok;
+	ok                       = write(folder, "pieces.ply", makePieces()) && ok;
+	ok                       = write(folder, "pretzel.ply", makePretzel()) && ok;
+	ok                       = write(folder, "vase.ply", vase, vaseColours(vase)) && ok;
+	return ok ? 0 : 1;
+}
