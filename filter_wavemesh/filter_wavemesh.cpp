@@ -11,6 +11,7 @@
 #include <wavemesh/vcg_wmc.h>
 
 #include <QFileInfo>
+#include <QGuiApplication>
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,27 @@ EncodeOptions browsingOptions()
 	options.wgc  = Wgc::On;
 	return options;
 }
+
+/// An hourglass, where there is a screen, while a dialog is prepared.
+class WaitCursor
+{
+public:
+	WaitCursor() : shown_(qobject_cast<QGuiApplication*>(QCoreApplication::instance()) != nullptr)
+	{
+		if (shown_)
+			QGuiApplication::setOverrideCursor(Qt::WaitCursor);
+	}
+	~WaitCursor()
+	{
+		if (shown_)
+			QGuiApplication::restoreOverrideCursor();
+	}
+	WaitCursor(const WaitCursor&)            = delete;
+	WaitCursor& operator=(const WaitCursor&) = delete;
+
+private:
+	bool shown_;
+};
 
 std::map<std::string, QVariant> describe(const MeshModel& layer, const StreamInfo& info, int level)
 {
@@ -120,7 +142,8 @@ FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshDocumen
 	case FP_BROWSE: {
 		const auto [finest, shown] = levelRange(layer);
 		list.addParam(RichDynamicFloat(
-			"level", Scalarm(shown), 0, Scalarm(std::max(finest, 1)), "Level",
+			"level", Scalarm(shown), 0, Scalarm(std::max(finest, 1)),
+			QString("Level (0 coarsest, %1 finest)").arg(finest),
 			"0 is the base mesh, the coarsest; the largest value is the finest level, which is the "
 			"layer as it was. In scripts -1 is the finest, too. Tick <i>Preview</i> and drag."));
 		break;
@@ -250,13 +273,17 @@ SharedBytes FilterWavemeshPlugin::encodeForBrowsing(const MeshModel& layer)
 
 std::pair<int, int> FilterWavemeshPlugin::levelRange(const MeshModel& layer)
 {
+	const WaitCursor waiting;
 	try {
 		const LayerStream* kept   = findStream(layer.cm);
 		const bool         valid  = kept != nullptr && kept->fingerprint == fingerprint(layer.cm);
 		const SharedBytes  stream = valid ? kept->bytes : encodeForBrowsing(layer);
 		const auto         info   = readInfo(stream->data(), stream->size());
-		if (info.ok())
-			return {info->finestLevel(), valid ? kept->level : info->finestLevel()};
+		if (info.ok()) {
+			const int whole = wholeLevels(*info, stream->size()) - 1;
+			return valid ? std::pair(std::max(whole, kept->level), kept->level) :
+						   std::pair(whole, whole);
+		}
 	}
 	catch (const std::exception&) {
 		// The filter itself will say what is wrong; a dialog has no way to.

@@ -35,15 +35,6 @@ struct OpenRequest
 	}
 };
 
-/// How many levels the first `size` bytes hold whole.
-int wholeLevels(const StreamInfo& info, std::uint64_t size)
-{
-	int count = 0;
-	for (const LevelInfo& level : info.levels)
-		count += level.prefix <= size;
-	return count;
-}
-
 /// Shows `mesh`, level `level` of `stream`, and leaves the stream on the layer for filter_wavemesh.
 void fillLayer(MeshModel& layer, const MeshData& mesh, int level, SharedBytes stream)
 {
@@ -150,7 +141,7 @@ void IOWavemeshPlugin::open(
 				progress(double(masks.size()) / double(layers.size()));
 		}
 		if (bytes->size() < decoder->info().bytes && request.maxBytes >= bytes->size())
-			warn(QString("%1 is cut: %2 of its %3 levels are whole.")
+			warn(QString("%1 is truncated: %2 of its %3 levels are whole.")
 					 .arg(fileName)
 					 .arg(wholeLevels(decoder->info(), bytes->size()))
 					 .arg(finest + 1));
@@ -188,11 +179,10 @@ void IOWavemeshPlugin::open(
 				levelLabel(layer.label(), decoded->level, info.finestLevel()));
 		mask = 0;
 		if (decoded.status().code == StatusCode::Truncated && bytes->size() < request.maxBytes)
-			warn(QString("%1 is cut: %2 of %3 are there. Level %4 of %5 is shown. (%6)")
+			warn(QString("%1 is truncated: it has %2 of %3. Level %4 of %5 is shown.")
 					 .arg(fileName, QString::number(bytes->size()), byteCount(info.bytes))
 					 .arg(decoded->level)
-					 .arg(info.finestLevel())
-					 .arg(explain(decoded.status())));
+					 .arg(info.finestLevel()));
 		log(QString("Opened level %1 of %2: %3 vertices, %4 faces, from %5 in %6 s.")
 				.arg(decoded->level)
 				.arg(info.finestLevel())

@@ -53,6 +53,14 @@ void dropStream(CMeshO& m)
 	Attributes::DeletePerMeshAttribute(m, kStreamAttribute);
 }
 
+int wholeLevels(const StreamInfo& info, std::uint64_t size)
+{
+	int count = 0;
+	for (const LevelInfo& level : info.levels)
+		count += level.prefix <= size;
+	return count;
+}
+
 std::uint64_t fingerprint(const CMeshO& m)
 {
 	const MeshData data = toMeshData(m);

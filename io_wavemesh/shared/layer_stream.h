@@ -34,6 +34,9 @@ const LayerStream* findStream(const CMeshO& m);
 void               keepStream(CMeshO& m, LayerStream stream);
 void               dropStream(CMeshO& m);
 
+/// How many levels, from the base mesh on, the first `size` bytes of a stream hold whole.
+int wholeLevels(const StreamInfo& info, std::uint64_t size);
+
 /// Hash of the coordinates and the connectivity of the elements that are not deleted. Linear.
 std::uint64_t fingerprint(const CMeshO& m);
 
