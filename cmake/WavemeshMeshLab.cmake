@@ -31,19 +31,20 @@ endif()
 file(READ ${MESHLAB_SOURCE_DIR}/ML_VERSION meshlab_version)
 string(STRIP "${meshlab_version}" meshlab_version)
 
+# The plugins share meshes with MeshLab: its VCGLib and no other, whatever was found before.
+set(WAVEMESH_VCGLIB_DIR ${MESHLAB_SOURCE_DIR}/src/vcglib)
+unset(WAVEMESH_VCGLIB_FOUND CACHE)
+
 find_package(Qt5 5.11 REQUIRED COMPONENTS Core Gui Widgets OpenGL Xml)
 
 # libmeshlab-common.so: the built one proves our calls at link time; the stub has its name only.
 add_library(wavemesh_meshlab_common INTERFACE)
 add_library(MeshLab::common ALIAS wavemesh_meshlab_common)
-target_include_directories(wavemesh_meshlab_common SYSTEM INTERFACE
-	${MESHLAB_SOURCE_DIR}/src
-	${MESHLAB_SOURCE_DIR}/src/vcglib
-	${WAVEMESH_EIGEN_FOUND})
+target_include_directories(wavemesh_meshlab_common SYSTEM INTERFACE ${MESHLAB_SOURCE_DIR}/src)
 target_compile_definitions(wavemesh_meshlab_common INTERFACE
 	MESHLAB_VERSION=${meshlab_version} MESHLAB_SCALAR=float)
 target_link_libraries(wavemesh_meshlab_common INTERFACE
-	Qt5::Core Qt5::Gui Qt5::Widgets Qt5::OpenGL Qt5::Xml)
+	Wavemesh::vcglib Qt5::Core Qt5::Gui Qt5::Widgets Qt5::OpenGL Qt5::Xml)
 
 if(MESHLAB_BUILD_DIR)
 	set(meshlab_common_library ${MESHLAB_BUILD_DIR}/src/distrib/libmeshlab-common.so)

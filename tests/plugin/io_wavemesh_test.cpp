@@ -17,7 +17,7 @@ namespace {
 /// A sample saved as .wmc by the plugin, and what its head says.
 struct SavedSample
 {
-	QString    original = sample("torus.ply");
+	QString    original = sample("pretzel.ply");
 	QString    file     = scratch("sample.wmc");
 	QByteArray bytes;
 	StreamInfo info;
