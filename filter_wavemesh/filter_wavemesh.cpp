@@ -179,7 +179,7 @@ std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
 FilterWavemeshPlugin::Results FilterWavemeshPlugin::simplify(
 	MeshModel& layer, const RichParameterList& parameters, vcg::CallBackPos* cb)
 {
-	const SimplifyTarget target  = simplifyTarget(parameters);
+	const SimplifyTarget target  = simplifyTarget(parameters, layer);
 	EncodeOptions        options = encodeOptions(parameters, browsingOptions());
 	options.progress             = progressBar(cb, "Coarsening...");
 	const auto encoded           = encode(toMeshData(layer.cm), options);
@@ -200,6 +200,7 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::simplify(
 			log(GLLogStream::WARNING,
 				("The simplified mesh does not have: " + lost.join(", ") + ".").toStdString());
 		exchangeMesh(layer, std::move(coarse));
+		layer.setLabel(plainLabel(layer.label()));
 	}
 	log(sentence(layer, info, chosen.level).toStdString());
 	Results results          = describe(layer, info, chosen.level);

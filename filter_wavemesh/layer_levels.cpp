@@ -104,10 +104,13 @@ void LayerLevels::copyTo(MeshModel& other, const MeshModel& layer, int level)
 	other.cm.Tr = layer.cm.Tr;
 	if (level != finest_ || (!away_.mesh && shown_ != finest_))
 		exchangeMesh(other, makeMesh(decoded(level)));
-	else if (away_.mesh)
-		exchangeMesh(other, std::make_unique<CMeshO>(*away_.mesh), away_.dataMask);
-	else
-		exchangeMesh(other, std::make_unique<CMeshO>(layer.cm), layer.dataMask());
+	else {
+		const CMeshO& mesh = away_.mesh ? *away_.mesh : layer.cm;
+		const int     mask = away_.mesh ? away_.dataMask : layer.dataMask();
+		exchangeMesh(other, std::make_unique<CMeshO>(mesh), mask);
+		for (const std::string& name : mesh.textures)
+			other.addTexture(name, layer.getTexture(name));
+	}
 	attach(other, stream_, level);
 }
 

@@ -37,7 +37,7 @@ void addTargetParameters(RichParameterList& list, const MeshModel& layer)
 		{"levels removed", "level", "vertices", "percentage", "bytes", "error"}, "Simplify to",
 		"Which of the values below is the target; the others are not used."));
 	list.addParam(RichInt(
-		"levels_removed", 1, "Levels removed",
+		"levels_removed", 1, "Levels to remove",
 		"How many times the mesh is made coarser. One level has 2 to 4 times fewer faces than the "
 		"next finer one."));
 	list.addParam(RichInt("level", 0, "Level", "0 is the base mesh, the coarsest there is."));
@@ -57,24 +57,21 @@ void addTargetParameters(RichParameterList& list, const MeshModel& layer)
 		"estimated from the details that are left out; it is no exact surface distance."));
 }
 
-SimplifyTarget simplifyTarget(const RichParameterList& list)
+SimplifyTarget simplifyTarget(const RichParameterList& list, const MeshModel& layer)
 {
+	RichParameterList defaults;
+	addTargetParameters(defaults, layer);
 	SimplifyTarget target;
 	const int      kind = integerOf(list, "target", SimplifyTarget::LevelsRemoved);
 	if (kind < SimplifyTarget::LevelsRemoved || kind > SimplifyTarget::Error)
 		throw MLException("Wavemesh: 'target' has to be 0 to 5.");
 	target.kind = SimplifyTarget::Kind(kind);
 
-	static const struct
-	{
-		const char* name;
-		double      missing;
-	} values[] = {
-		{"levels_removed", 1}, {"level", 0}, {"vertices", 1000},
-		{"percentage", 25},    {"bytes", 10000}, {"error", 0}};
-	target.value = numberOf(list, values[kind].name, values[kind].missing);
+	static const char* const names[] = {
+		"levels_removed", "level", "vertices", "percentage", "bytes", "error"};
+	target.value = numberOf(list, names[kind], numberOf(defaults, names[kind], 0));
 	if (!(target.value >= 0) && target.kind != SimplifyTarget::Level)
-		throw MLException(QString("Wavemesh: '%1' must not be negative.").arg(values[kind].name));
+		throw MLException(QString("Wavemesh: '%1' must not be negative.").arg(names[kind]));
 	return target;
 }
 

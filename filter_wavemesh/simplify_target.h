@@ -24,8 +24,9 @@ struct SimplifyTarget
 /// Appends one parameter for the kind and one for the value of each kind.
 void addTargetParameters(RichParameterList& list, const MeshModel& layer);
 
+/// Reads them back; what a script leaves out has the value that the dialog would show for `layer`.
 /// @throws MLException if a value makes no sense (a negative number of vertices, ...)
-SimplifyTarget simplifyTarget(const RichParameterList& list);
+SimplifyTarget simplifyTarget(const RichParameterList& list, const MeshModel& layer);
 
 struct ChosenLevel
 {
