@@ -140,8 +140,13 @@ void IOWavemeshPlugin::open(
 			if (progress)
 				progress(double(masks.size()) / double(layers.size()));
 		}
+		log(QString("Opened levels 0 to %1 of %2 from %3.")
+				.arg(decoder->level())
+				.arg(finest)
+				.arg(byteCount(bytes->size()))
+				.toStdString());
 		if (bytes->size() < decoder->info().bytes && request.maxBytes >= bytes->size())
-			warn(QString("%1 is truncated: %2 of its %3 levels are whole.")
+			reportWarning(QString("%1 is truncated: %2 of its %3 levels are whole.")
 					 .arg(fileName)
 					 .arg(wholeLevels(decoder->info(), bytes->size()))
 					 .arg(finest + 1));
@@ -179,7 +184,7 @@ void IOWavemeshPlugin::open(
 				levelLabel(layer.label(), decoded->level, info.finestLevel()));
 		mask = 0;
 		if (decoded.status().code == StatusCode::Truncated && bytes->size() < request.maxBytes)
-			warn(QString("%1 is truncated: it has %2 of %3. Level %4 of %5 is shown.")
+			reportWarning(QString("%1 is truncated: it has %2 of %3. Level %4 of %5 is shown.")
 					 .arg(fileName, QString::number(bytes->size()), byteCount(info.bytes))
 					 .arg(decoded->level)
 					 .arg(info.finestLevel()));
@@ -228,7 +233,7 @@ void IOWavemeshPlugin::save(
 		require(encoded.status(), "Cannot save " + fileName);
 		writeFile(fileName, encoded->bytes);
 
-		// Not reportWarning(): MeshLab shows those when it next opens a file.
+		// Not reportWarning(): MeshLab shows what that collects after the next opening.
 		const QStringList lost = attributesNotKept(layer);
 		if (!lost.isEmpty())
 			log(GLLogStream::WARNING,
@@ -243,13 +248,6 @@ void IOWavemeshPlugin::save(
 				.arg(watch.seconds(), 0, 'f', 2)
 				.toStdString());
 	});
-}
-
-/// In the dialog that MeshLab shows after opening, and in the log, which scripts see too.
-void IOWavemeshPlugin::warn(const QString& message) const
-{
-	reportWarning(message);
-	log(GLLogStream::WARNING, message.toStdString());
 }
 
 MESHLAB_PLUGIN_NAME_EXPORTER(IOWavemeshPlugin)

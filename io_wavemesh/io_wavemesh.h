@@ -54,7 +54,4 @@ public:
 		const int                mask,
 		const RichParameterList& parameters,
 		vcg::CallBackPos*        cb = nullptr) override;
-
-private:
-	void warn(const QString& message) const;
 };
