@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The file around the levels: magic, chunks, and the head with the level table
+/// (docs/wmc_format.md, sections 2 and 3).
+#pragma once
+
+#include "mesh/quantization.h"
+
+#include <wavemesh/codec.h>
+
+namespace wavemesh {
+
+constexpr std::uint8_t kVersionMajor = 0;
+constexpr std::uint8_t kVersionMinor = 1;
+
+/// Chunk types are letters; lower case means that a decoder may skip the chunk.
+constexpr std::uint8_t kHeadChunk  = 'H';
+constexpr std::uint8_t kLevelChunk = 'L';
+
+/// A level within the level chunks. A chunk holds one or more levels.
+struct LevelRow
+{
+	LevelKind     kind              = LevelKind::Base;
+	std::uint32_t vertices          = 0;
+	std::uint32_t faces             = 0;
+	std::uint32_t bytes             = 0; ///< of the chunk's payload
+	std::uint32_t connectivityBytes = 0; ///< of these
+	std::uint8_t  errorCode         = 0; ///< see errorFromCode()
+	bool          endsChunk         = false;
+};
+
+struct Head
+{
+	std::uint8_t          major   = kVersionMajor;
+	std::uint8_t          minor   = kVersionMinor;
+	Mode                  mode    = Mode::Classic;
+	int                   lifting = kLiftingOff;
+	bool                  wgc     = false;
+	Lattice               lattice;
+	std::uint32_t         digest = 0; ///< digestOf() the finest level
+	std::vector<LevelRow> rows;       ///< coarsest first
+};
+
+/// The mean squared error `sum / count` as 5 bits of exponent and 3 of mantissa, in 1/256 square steps.
+std::uint8_t errorCode(std::uint64_t sum, std::uint64_t count);
+/// Root of what errorCode() stored, in steps.
+double errorFromCode(std::uint8_t code);
+
+/// Checksum over lattice positions and vertex indices, 32-bit little-endian words in that order.
+std::uint32_t digestOf(const CornerTable& table, const std::vector<LatticePoint>& positions);
+
+/// Appends magic and head chunk.
+void writeHead(const Head& head, std::vector<std::uint8_t>& file);
+/// @param end  [out] offset behind the head chunk
+Result<Head> readHead(const std::uint8_t* data, std::size_t size, std::size_t& end);
+
+/// Appends a chunk: type, length, payload, checksum.
+void writeChunk(
+	std::uint8_t                     type,
+	const std::vector<std::uint8_t>& payload,
+	std::vector<std::uint8_t>&       file);
+
+struct Chunk
+{
+	std::uint8_t        type    = 0;
+	const std::uint8_t* payload = nullptr;
+	std::size_t         size    = 0;    ///< bytes of the payload that are there
+	bool                whole   = false; ///< false: the data end inside, nothing was checked
+	std::size_t         end     = 0;    ///< offset behind the chunk
+};
+/// Reads the chunk at `offset`; skips none. A cut chunk comes back with what there is of it.
+/// @return Truncated if not even its length is there, ChecksumMismatch
+Result<Chunk> readChunk(const std::uint8_t* data, std::size_t size, std::size_t offset);
+
+/// What the head tells, with file offsets worked out. @param headEnd  see readHead()
+StreamInfo describe(const Head& head, std::size_t headEnd);
+
+} // namespace wavemesh

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "container/container.h"
+#include "multires/refine.h"
+#include "syntax/base_syntax.h"
+#include "syntax/connectivity_syntax.h"
+#include "syntax/detail_syntax.h"
+#include "wavelet/lifting.h"
+
+#include <wavemesh/codec.h>
+
+#include <new>
+
+namespace wavemesh {
+
+struct Decoder::State
+{
+	const std::uint8_t* data = nullptr;
+	std::size_t         size = 0;
+	Head                head;
+	StreamInfo          info;
+
+	int                       level = -1;
+	CornerTable               table;
+	std::vector<LatticePoint> positions;
+	Status                    stopped; ///< not ok: no further level can come
+
+	std::size_t        offset = 0; ///< of the next chunk
+	Chunk              chunk;      ///< the one being read
+	RangeDecoder       coder;
+	ConnectivityModels connectivityModels;
+	DetailModels       detailModels;
+
+	const LevelRow& row(int l) const { return head.rows[std::size_t(l)]; }
+
+	Status openChunk();
+	Status readBase();
+	Status readSplit();
+	Status advance();
+	Status ended(const char* where) const;
+	Status corrupt(const char* what) const;
+};
+
+namespace {
+
+std::string levelName(int level)
+{
+	return "level " + std::to_string(level);
+}
+
+} // namespace
+
+/// The decoder ran out of bytes: because the file is cut, or because it lies.
+Status Decoder::State::ended(const char* where) const
+{
+	const std::string place = std::string("inside ") + where + " of " + levelName(level + 1);
+	if (chunk.whole)
+		return {StatusCode::Corrupt, "the data end " + place + " although the chunk is whole", chunk.end};
+	return {
+		StatusCode::Truncated,
+		"the file ends " + place + " (" + std::to_string(size) + " of " + std::to_string(info.bytes) + " bytes)",
+		size};
+}
+
+Status Decoder::State::corrupt(const char* what) const
+{
+	return {
+		StatusCode::Corrupt,
+		levelName(level + 1) + " " + what + " (chunk at offset " +
+			std::to_string(std::size_t(chunk.payload - data)) + ")",
+		std::uint64_t(chunk.payload - data)};
+}
+
+/// Finds the next level chunk.
+Status Decoder::State::openChunk()
+{
+	for (;;) {
+		if (offset == size)
+			return {
+				StatusCode::Truncated,
+				"the file ends before " + levelName(level + 1) + " (" + std::to_string(size) + " of " +
+					std::to_string(info.bytes) + " bytes)",
+				size};
+		auto next = readChunk(data, size, offset);
+		if (!next.ok())
+			return next.status();
+		chunk = *next;
+		if (chunk.type == kLevelChunk) {
+			offset = chunk.end;
+			coder  = RangeDecoder(chunk.payload, chunk.size);
+			return {};
+		}
+		if (chunk.type < 'a' || chunk.type > 'z')
+			return {StatusCode::Corrupt, "an unknown chunk at offset " + std::to_string(offset), offset};
+		offset = chunk.end;
+	}
+}
+
+Status Decoder::State::readBase()
+{
+	auto base = BaseSyntax<RangeDecoder>(coder, head.lattice.bits).read(row(0).vertices, row(0).faces);
+	if (!base.ok())
+		return base.status().code == StatusCode::Truncated ? ended("the base mesh") : base.status();
+	table     = std::move(base->table);
+	positions = std::move(base->positions);
+	return {};
+}
+
+Status Decoder::State::readSplit()
+{
+	const LevelRow& target = row(level + 1);
+	Refinement      refinement;
+	ConnectivitySyntax<RangeDecoder>(coder, connectivityModels, table, positions).code(refinement);
+	if (coder.exhausted())
+		return ended("the connectivity");
+	if (refinement.childVertices != target.vertices)
+		return corrupt("does not have the number of vertices that the head declares");
+	CornerTable child = refine(table, refinement);
+	if (child.faceCount() != target.faces)
+		return corrupt("does not have the number of faces that the head declares");
+
+	const Parents             parents = parentsOf(table, refinement);
+	const UpdateWeights       weights = updateWeights(table, refinement, parents, head.lifting);
+	std::vector<LatticePoint> details(parents.size(), {0, 0, 0});
+	DetailSyntax<RangeDecoder>(coder, detailModels, table, refinement, positions).code(details);
+	Status cut;
+	if (coder.exhausted()) {
+		cut = ended("the details");
+		if (cut.code != StatusCode::Truncated)
+			return cut;
+	}
+	synthesise(parents, weights, details, positions);
+	table = std::move(child);
+	++level;
+	return cut;
+}
+
+Status Decoder::State::advance()
+{
+	if (!stopped.ok())
+		return stopped;
+	if (level == info.finestLevel())
+		return {StatusCode::InvalidArgument, "this is the finest level already"};
+	if (level < 0 || row(level).endsChunk)
+		if (Status s = openChunk(); !s.ok())
+			return s;
+	if (level >= 0)
+		return readSplit();
+	if (Status s = readBase(); !s.ok())
+		return s;
+	level = 0;
+	return {};
+}
+
+Decoder::Decoder(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Decoder::Decoder(Decoder&&) noexcept            = default;
+Decoder& Decoder::operator=(Decoder&&) noexcept = default;
+Decoder::~Decoder()                             = default;
+
+const StreamInfo& Decoder::info() const
+{
+	return state_->info;
+}
+
+int Decoder::level() const
+{
+	return state_->level;
+}
+
+Result<Decoder> Decoder::open(const std::uint8_t* data, std::size_t size, const DecodeLimits& limits)
+{
+	auto        state = std::make_unique<State>();
+	std::size_t end   = 0;
+	auto        head  = readHead(data, size, end);
+	if (!head.ok())
+		return head.status();
+	state->data   = data;
+	state->size   = size;
+	state->head   = std::move(*head);
+	state->info   = describe(state->head, end);
+	state->offset = end;
+	if (state->info.vertices > limits.maxVertices || state->info.faces > limits.maxFaces)
+		return Status(
+			StatusCode::LimitExceeded,
+			"the file declares " + std::to_string(state->info.vertices) + " vertices and " +
+				std::to_string(state->info.faces) + " faces, more than the limit of " +
+				std::to_string(limits.maxVertices) + " and " + std::to_string(limits.maxFaces));
+	return Decoder(std::move(state));
+}
+
+Status Decoder::advance()
+{
+	State& s = *state_;
+	Status status;
+	try {
+		status = s.advance();
+		if (status.ok() && s.level == s.info.finestLevel() && digestOf(s.table, s.positions) != s.head.digest)
+			status = {StatusCode::ChecksumMismatch, "the finest mesh does not match its digest"};
+	}
+	catch (const std::bad_alloc&) {
+		status = {StatusCode::OutOfMemory, "not enough memory for " + levelName(s.level + 1)};
+	}
+	if (!status.ok() && status.code != StatusCode::InvalidArgument)
+		s.stopped = status;
+	return status;
+}
+
+MeshData Decoder::mesh() const
+{
+	const State& s = *state_;
+	MeshData     out;
+	out.positions.reserve(s.positions.size());
+	for (const LatticePoint& p : s.positions)
+		out.positions.push_back(s.head.lattice.position(p));
+	out.triangles.resize(s.table.faceCount());
+	for (std::size_t f = 0; f < out.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			out.triangles[f][k] = s.table.vertex[3 * f + k];
+	return out;
+}
+
+Result<StreamInfo> readInfo(const std::uint8_t* data, std::size_t size)
+{
+	std::size_t end  = 0;
+	auto        head = readHead(data, size, end);
+	if (!head.ok())
+		return head.status();
+	return describe(*head, end);
+}
+
+Result<DecodedMesh> decode(const std::uint8_t* data, std::size_t size, const DecodeOptions& options)
+{
+	auto decoder = Decoder::open(
+		data, static_cast<std::size_t>(std::min<std::uint64_t>(size, options.maxBytes)), options.limits);
+	if (!decoder.ok())
+		return decoder.status();
+	const StreamInfo& info   = decoder->info();
+	const int         finest = info.finestLevel();
+	const int         target = options.level < 0 ? finest : std::min(options.level, finest);
+	Status            status;
+	while (decoder->level() < target && status.ok()) {
+		const double done =
+			decoder->level() < 0 ? 0 : double(info.levels[std::size_t(decoder->level())].vertices) / info.vertices;
+		if (options.progress && !options.progress(done))
+			return Status(StatusCode::Cancelled, "cancelled");
+		status = decoder->advance();
+	}
+	if (!status.ok() && (status.code != StatusCode::Truncated || decoder->level() < 0))
+		return status;
+	try {
+		DecodedMesh out {decoder->mesh(), decoder->level(), info};
+		return Result<DecodedMesh>(std::move(out), status);
+	}
+	catch (const std::bad_alloc&) {
+		return Status(StatusCode::OutOfMemory, "not enough memory for the mesh");
+	}
+}
+
+} // namespace wavemesh

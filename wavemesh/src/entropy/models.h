@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Adaptive models of binary decisions, alone, mixed, and strung together to integers. Integer
+/// arithmetic only: encoder and decoder learn the same, bit for bit, on every machine.
+#pragma once
+
+#include "entropy/logistic.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace wavemesh {
+
+/// 1 / (n + 1.5) in 1/65536.
+struct AdaptiveSteps
+{
+	std::int32_t of[1024];
+	constexpr AdaptiveSteps() : of()
+	{
+		for (int n = 0; n < 1024; ++n)
+			of[n] = 65536 * 2 / (2 * n + 3);
+	}
+};
+inline constexpr AdaptiveSteps kAdaptiveSteps {};
+
+/// Probability of a 1 that moves towards each bit seen by 1/(n + 1.5), n the bits seen so far, kept
+/// at or below `limit`.
+class AdaptiveBit
+{
+public:
+	Probability p() const { return std::clamp<Probability>(state_ >> 16, 1, 65535); }
+	int         age() const { return static_cast<int>(state_ & 1023); }
+
+	void update(bool bit, int limit)
+	{
+		const std::int32_t n      = age();
+		const std::int32_t old    = static_cast<std::int32_t>(state_ >> 10);
+		const std::int32_t target = bit ? (1 << 22) - 1 : 0;
+		const std::int32_t step   = static_cast<std::int32_t>(
+            (std::int64_t(target - old) * kAdaptiveSteps.of[static_cast<std::size_t>(n)]) >> 16);
+		state_ = (static_cast<std::uint32_t>(old + step) << 10) |
+				 static_cast<std::uint32_t>(n < limit ? n + 1 : n);
+	}
+
+private:
+	std::uint32_t state_ = 1u << 31; ///< probability in 22 bits, age in 10
+};
+
+/// A bit with one model.
+template<class Coder>
+bool codeBit(Coder& coder, AdaptiveBit& model, bool value, int limit = 255)
+{
+	value = coder.bit(value, model.p());
+	model.update(value, limit);
+	return value;
+}
+
+/// Equally likely bits, most significant first.
+template<class Coder>
+std::uint32_t codeRaw(Coder& coder, int bits, std::uint32_t value)
+{
+	std::uint32_t out = 0;
+	for (int i = bits - 1; i >= 0; --i)
+		out = (out << 1) | std::uint32_t(coder.bit((value >> i) & 1, 32768));
+	return out;
+}
+
+inline int bitLength(std::uint64_t x)
+{
+	int n = 0;
+	for (; x != 0; x >>= 1)
+		++n;
+	return n;
+}
+
+/// Unsigned integer below 2^MaxBits: its length in unary, then the bits below the leading one, the
+/// first two of them modelled.
+template<int MaxBits>
+class AdaptiveUnsigned
+{
+public:
+	template<class Coder>
+	std::uint64_t code(Coder& coder, std::uint64_t value)
+	{
+		const int wanted = bitLength(value);
+		int       length = 0;
+		while (length < MaxBits && codeBit(coder, length_[std::size_t(length)], length < wanted, 60))
+			++length;
+		if (length <= 1)
+			return std::uint64_t(length);
+		std::uint64_t out = 1;
+		for (int i = length - 2; i >= 0; --i) {
+			const bool bit = (value >> i) & 1;
+			const bool top = i == length - 2;
+			out            = (out << 1) |
+				  std::uint64_t(
+                      top ? codeBit(coder, top_[std::size_t(length)], bit, 60) : coder.bit(bit, 32768));
+		}
+		return out;
+	}
+
+private:
+	std::array<AdaptiveBit, MaxBits + 1> length_, top_;
+};
+
+/// The same for either sign: zero is one symbol, the sign equally likely.
+template<int MaxBits>
+class AdaptiveSigned
+{
+public:
+	template<class Coder>
+	std::int64_t code(Coder& coder, std::int64_t value)
+	{
+		const auto magnitude = static_cast<std::int64_t>(
+			magnitude_.code(coder, static_cast<std::uint64_t>(value < 0 ? -value : value)));
+		if (magnitude == 0)
+			return 0;
+		return coder.bit(value < 0, 32768) ? -magnitude : magnitude;
+	}
+
+private:
+	AdaptiveUnsigned<MaxBits> magnitude_;
+};
+
+/// Logistic mixing of up to N models: p = squash(sum of weight * stretch(p_i)), the weights learn
+/// from every bit (PAQ family; M. Mahoney).
+template<int N>
+class Mixer
+{
+public:
+	/// @param sets  number of weight sets; one is selected for each bit
+	explicit Mixer(int sets) : weights_(std::size_t(sets))
+	{
+		for (Weights& w : weights_)
+			w.of.fill(65536 * 3 / (2 * N));
+	}
+
+	/// Codes a bit with all of `models`, which learn it too.
+	template<class Coder>
+	bool code(Coder& coder, const std::array<AdaptiveBit*, N>& models, int set, bool value, int limit)
+	{
+		Weights&             w = weights_[std::size_t(set)];
+		std::array<int, N>   input;
+		std::int64_t         dot = 0;
+		for (std::size_t i = 0; i < N; ++i) {
+			input[i] = stretch(models[i]->p());
+			dot += std::int64_t(input[i]) * w.of[i];
+		}
+		const Probability p = squash(static_cast<int>(std::clamp<std::int64_t>(dot >> 16, -2047, 2047)));
+		value               = coder.bit(value, p);
+
+		const int error = ((value ? 65535 : 0) - static_cast<int>(p)) * w.rate();
+		for (std::size_t i = 0; i < N; ++i) {
+			const std::int64_t change = (std::int64_t(input[i]) * error + (1 << 19)) >> 20;
+			w.of[i] = static_cast<std::int32_t>(
+				std::clamp<std::int64_t>(w.of[i] + change, -(1 << 22), 1 << 22));
+			models[i]->update(value, limit);
+		}
+		return value;
+	}
+
+private:
+	struct Weights
+	{
+		std::array<std::int32_t, N> of; ///< 1/65536
+		int                         seen = 0;
+
+		/// Learning rate: high at first, then slow.
+		int rate()
+		{
+			if (seen < 512)
+				++seen;
+			return 3 + 768 / (seen + 48);
+		}
+	};
+	std::vector<Weights> weights_;
+};
+
+} // namespace wavemesh

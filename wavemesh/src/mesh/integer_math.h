@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Integer geometry that encoder and decoder share. No overflow for any 32-bit input: sums of
+/// lattice coordinates wrap around, lengths are measured by their largest coordinate.
+#pragma once
+
+#include "mesh/corner_table.h"
+
+namespace wavemesh {
+
+/// a + b, a - b modulo 2^32.
+inline std::int32_t wrappingAdd(std::int32_t a, std::int32_t b)
+{
+	return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+}
+inline std::int32_t wrappingSubtract(std::int32_t a, std::int32_t b)
+{
+	return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
+
+/// 4 log2(x), rounded down to a multiple of one with the leading bits for a fraction; 0 for x = 0.
+inline int log2Quarters(std::uint64_t x)
+{
+	if (x == 0)
+		return 0;
+	int length = 0;
+	for (std::uint64_t y = x; y != 0; y >>= 1)
+		++length;
+	const std::uint64_t top = length >= 3 ? x >> (length - 3) : x << (3 - length);
+	return 4 * (length - 1) + static_cast<int>(top & 3);
+}
+
+/// Squared distance; coordinates may be anything: 34-bit differences are clamped to 31 bits.
+inline std::uint64_t squaredDistance(const LatticePoint& a, const LatticePoint& b)
+{
+	std::uint64_t sum = 0;
+	for (std::size_t k = 0; k < 3; ++k) {
+		std::int64_t d = std::int64_t(a[k]) - b[k];
+		d              = d < 0 ? -d : d;
+		if (d > 0x7fffffff)
+			d = 0x7fffffff;
+		sum += static_cast<std::uint64_t>(d * d);
+	}
+	return sum;
+}
+
+} // namespace wavemesh

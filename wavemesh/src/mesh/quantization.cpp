@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/quantization.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wavemesh {
+namespace {
+
+/// Nearest 32-bit float at or below x (side < 0), or at or above.
+double roundedToFloat(double x, int side)
+{
+	const float f = static_cast<float>(x);
+	if (side < 0 ? double(f) > x : double(f) < x)
+		return double(std::nextafter(f, float(side) * std::numeric_limits<float>::infinity()));
+	return double(f);
+}
+
+} // namespace
+
+Result<Lattice> makeLattice(
+	const std::vector<std::array<double, 3>>& positions,
+	int                                       bits,
+	double                                    step)
+{
+	if (bits < 1 || bits > kMaxBits)
+		return Status(StatusCode::InvalidArgument, "bits per coordinate must be 1 to 24");
+	if (!std::isfinite(step) || step < 0)
+		return Status(StatusCode::InvalidArgument, "the step must be a positive, finite length");
+
+	std::array<double, 3> low {}, high {};
+	for (std::size_t i = 0; i < positions.size(); ++i)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const double x = positions[i][k];
+			if (!std::isfinite(x))
+				return Status(
+					StatusCode::InvalidArgument,
+					"vertex " + std::to_string(i) + " has a coordinate that is not finite");
+			low[k]  = i == 0 ? x : std::min(low[k], x);
+			high[k] = i == 0 ? x : std::max(high[k], x);
+		}
+	const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+	if (!std::isfinite(extent))
+		return Status(StatusCode::InvalidArgument, "the bounding box is too large for a double");
+
+	Lattice lattice;
+	lattice.origin = low;
+	if (step > 0) {
+		const double steps = std::round(extent / step);
+		if (!(steps < double(1 << kMaxBits)))
+			return Status(
+				StatusCode::InvalidArgument,
+				"the step is too small: the bounding box would have 2^24 steps or more");
+		lattice.step = step;
+		lattice.bits = 1;
+		while (double((1 << lattice.bits) - 1) < steps)
+			++lattice.bits;
+		return lattice;
+	}
+	lattice.bits       = bits;
+	const double steps = double((1 << bits) - 1);
+	// A box that starts and ends on 32-bit floats takes half the room in the file; take it if it is
+	// hardly larger.
+	std::array<double, 3> start {};
+	double                wide = 0;
+	for (std::size_t k = 0; k < 3; ++k) {
+		start[k] = roundedToFloat(low[k], -1);
+		wide     = std::max(wide, high[k] - start[k]);
+	}
+	wide = roundedToFloat(wide, +1);
+	if (wide > 0 && wide <= extent * (1 + 1.0 / 65536)) {
+		lattice.origin = start;
+		lattice.step   = wide / steps;
+	}
+	else
+		lattice.step = extent / steps;
+	if (!(lattice.step > 0)) // one point, or an extent at the end of the denormals
+		lattice.step = 1;
+	return lattice;
+}
+
+std::vector<LatticePoint> quantise(
+	const std::vector<std::array<double, 3>>& positions,
+	const Lattice&                            lattice)
+{
+	std::vector<LatticePoint> points(positions.size());
+	for (std::size_t i = 0; i < positions.size(); ++i)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const double steps = std::round((positions[i][k] - lattice.origin[k]) / lattice.step);
+			points[i][k] = static_cast<std::int32_t>(
+				std::clamp(steps, 0.0, double((1 << lattice.bits) - 1)));
+		}
+	return points;
+}
+
+} // namespace wavemesh

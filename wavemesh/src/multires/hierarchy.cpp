@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multires/hierarchy.h"
+
+#include "multires/refine.h"
+
+namespace wavemesh {
+namespace {
+
+/// Below this many vertices even a step that removes a single one is taken.
+constexpr Index kSmall = 48;
+
+bool worthwhile(Index coarse, Index fine)
+{
+	return coarse < fine && (fine <= kSmall || coarse <= fine - fine / 16);
+}
+
+std::vector<LatticePoint> pick(const std::vector<LatticePoint>& positions, const std::vector<Index>& rows)
+{
+	std::vector<LatticePoint> out;
+	out.reserve(rows.size());
+	for (const Index row : rows)
+		out.push_back(positions[row]);
+	return out;
+}
+
+/// For each corner of `coded` the corner of `own` that is the same, given the vertices.
+std::vector<Index> matchCorners(
+	const CornerTable&        coded,
+	const CornerTable&        own,
+	const std::vector<Index>& source)
+{
+	const std::vector<Index> first = firstCorners(own);
+	std::vector<Index>       match(coded.cornerCount());
+	for (Index c = 0; c < coded.cornerCount(); c += 3) {
+		const Index to   = source[coded.vertex[c + 1]];
+		Index       mine = first[source[coded.vertex[c]]];
+		while (own.vertex[nextCorner(mine)] != to)
+			mine = own.swingLeft(mine);
+		match[c]     = mine;
+		match[c + 1] = nextCorner(mine);
+		match[c + 2] = prevCorner(mine);
+	}
+	return match;
+}
+
+/// The refinement in the decoder's order; appends the new vertices' sources.
+Refinement canonical(
+	const CornerTable&  parent,
+	const Coarsening&   step,
+	std::vector<Index>& source)
+{
+	const std::vector<Index> match = matchCorners(parent, step.coarse, source);
+	for (Index& v : source)
+		v = step.fineVertex[v];
+
+	Refinement r;
+	r.parentVertices = r.childVertices = parent.vertexCount;
+	r.childOnEdge.assign(parent.cornerCount(), kNone);
+	r.faceCode.assign(parent.faceCount(), kFaceNone);
+	for (Index c = 0; c < parent.cornerCount(); ++c) {
+		const Index child = step.childOnEdge[match[c]], d = parent.opposite[c];
+		if (child == kNone || (d != kNone && d < c))
+			continue;
+		r.childOnEdge[c] = r.childVertices++;
+		if (d != kNone)
+			r.childOnEdge[d] = r.childOnEdge[c];
+		source.push_back(child);
+	}
+	std::vector<std::uint8_t> flipped(parent.faceCount(), 0);
+	for (Index f = 0; f < parent.faceCount(); ++f) {
+		const Index    mine = match[3 * f] / 3;
+		const FaceCode code = step.faceCode[mine];
+		if (code == kFaceCentre) {
+			++r.childVertices;
+			r.hasCentres = true;
+			source.push_back(step.centre[mine]);
+		}
+		if (code == kFaceFlip1 || code == kFaceFlip2) {
+			if (flipped[f])
+				continue; // the face across has told already
+			const Index corner = faceShape(r.childOnEdge, f).corner;
+			const Index edge   = code == kFaceFlip1 ? nextCorner(corner) : prevCorner(corner);
+			flipped[f] = flipped[parent.opposite[edge] / 3] = 1;
+		}
+		r.faceCode[f] = code;
+	}
+	return r;
+}
+
+} // namespace
+
+std::vector<Coarsening> coarsenAll(
+	const CornerTable&                table,
+	const std::vector<LatticePoint>&  positions,
+	const GeometricalCriterion&       criterion,
+	const std::function<bool(double)>& step)
+{
+	std::vector<Coarsening>   steps;
+	const CornerTable*        fine   = &table;
+	std::vector<LatticePoint> points = positions;
+	for (;;) {
+		Coarsening next = coarsen(*fine, points, criterion);
+		// Where nearly everything is sharp the criterion would stop the coarsening for good.
+		if (criterion.active && next.coarse.vertexCount > fine->vertexCount - fine->vertexCount / 4)
+			next = coarsen(*fine, points, {});
+		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount))
+			break;
+		points = pick(points, next.fineVertex);
+		steps.push_back(std::move(next));
+		fine = &steps.back().coarse;
+		if (!step(1 - double(fine->vertexCount) / double(table.vertexCount)))
+			break;
+	}
+	return steps;
+}
+
+Replay replay(
+	const std::vector<Coarsening>& coarsenings,
+	CornerTable                    base,
+	std::vector<Index>             source)
+{
+	Replay out;
+	out.source = std::move(source);
+	out.finest = std::move(base);
+	for (std::size_t i = coarsenings.size(); i-- > 0;) {
+		ReplayedLevel level;
+		level.parent     = std::move(out.finest);
+		level.refinement = canonical(level.parent, coarsenings[i], out.source);
+		out.finest       = refine(level.parent, level.refinement);
+		out.levels.push_back(std::move(level));
+	}
+	return out;
+}
+
+} // namespace wavemesh

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// All levels of a mesh. The encoder coarsens from the finest down in a numbering of its own; the
+/// file counts from the base mesh up. replay() refines from the base as the decoder will and thereby
+/// turns the first numbering into the second, and proves that the decoder gets there.
+#pragma once
+
+#include "multires/coarsen.h"
+
+#include <functional>
+
+namespace wavemesh {
+
+/// @param step  called after each level with the fraction of vertices gone, 0..1; false stops
+/// @return the coarsenings, finest first; empty if nothing can be merged
+/// Linear: each level costs as much as it has faces, and has at most 15/16 of the vertices of the
+/// next finer one.
+std::vector<Coarsening> coarsenAll(
+	const CornerTable&                table,
+	const std::vector<LatticePoint>&  positions,
+	const GeometricalCriterion&       criterion,
+	const std::function<bool(double)>& step);
+
+struct ReplayedLevel
+{
+	CornerTable parent; ///< level j-1 as the decoder has it
+	Refinement  refinement;
+};
+
+struct Replay
+{
+	std::vector<ReplayedLevel> levels; ///< coarsest first; the last one's child is `finest`
+	CornerTable                finest;
+	std::vector<Index>         source; ///< #V: vertex of the original behind each of the decoder's
+};
+
+/// @param base    connectivity of the base mesh in the decoder's order
+/// @param source  #V_0: vertex of the coarsest mesh in the encoder's numbering behind each of base's
+/// @param coarsenings  from coarsenAll(), finest first
+Replay replay(
+	const std::vector<Coarsening>& coarsenings,
+	CornerTable                    base,
+	std::vector<Index>             source);
+
+} // namespace wavemesh
