@@ -66,10 +66,15 @@ void simplify(MeshLabHost& host, const QString& input, const QString& script, co
 	host.clear();
 	const int before = host.open(input).front()->cm.fn;
 	for (const auto& step : host.run(script)) {
-		std::printf("  %s: %d -> %d faces", qPrintable(step.filter), before, host.mesh().cm.fn);
-		for (const auto& [name, value] : step.results)
-			std::printf(", %s %s", name.c_str(), qPrintable(value.toString()));
-		std::printf("\n");
+		std::printf("  %s: %d -> %d faces (", qPrintable(step.filter), before, host.mesh().cm.fn);
+		const char* separator = "";
+		for (const auto& [name, value] : step.results) {
+			const bool    isReal = value.type() == QVariant::Double;
+			const QString text = isReal ? QString::number(value.toDouble(), 'g', 3) : value.toString();
+			std::printf("%s%s %s", separator, name.c_str(), qPrintable(text));
+			separator = ", ";
+		}
+		std::printf(")\n");
 	}
 	host.save(output);
 }

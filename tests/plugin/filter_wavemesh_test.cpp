@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// filter_wavemesh, applied by name and by filter scripts, on layers from every source.
+#include "test_host.h"
+
+#include <wavemesh/codec.h>
+
+#include <QFile>
+
+#include <array>
+#include <vector>
+
+using namespace wavemesh;
+using namespace wavemesh::test;
+
+namespace {
+
+/// What must come back bit for bit: coordinates and faces, in their order.
+struct Shape
+{
+	std::vector<std::array<Scalarm, 3>> vertices;
+	std::vector<std::array<size_t, 3>>  faces;
+
+	explicit Shape(const MeshModel& m)
+	{
+		for (const auto& v : m.cm.vert)
+			vertices.push_back({v.cP()[0], v.cP()[1], v.cP()[2]});
+		for (const auto& f : m.cm.face)
+			faces.push_back(
+				{vcg::tri::Index(m.cm, f.cV(0)), vcg::tri::Index(m.cm, f.cV(1)),
+				 vcg::tri::Index(m.cm, f.cV(2))});
+	}
+	bool operator==(const Shape& other) const
+	{
+		return vertices == other.vertices && faces == other.faces;
+	}
+};
+
+MeshLabHost::Results browse(MeshLabHost& host, int level)
+{
+	return host.apply("Wavemesh: Browse Levels", {{"level", QString::number(level)}});
+}
+
+double rmsToLayer(MeshLabHost& host, const MeshModel& from, const MeshModel& to)
+{
+	const auto results = host.apply(
+		"Hausdorff Distance",
+		{{"SampledMesh", QString::number(from.id())},
+		 {"TargetMesh", QString::number(to.id())},
+		 {"SampleFace", "true"},
+		 {"SampleNum", "20000"},
+		 {"MaxDist", QString::number(double(to.cm.bbox.Diag()))}});
+	return results.at("RMS").toDouble() / results.at("diag_mesh_0").toDouble();
+}
+
+} // namespace
+
+TEST(FilterWavemesh, EverySampleScriptRuns)
+{
+	for (const char* script : {"simplify.mlx", "browse.mlx", "layers.mlx"}) {
+		SCOPED_TRACE(script);
+		MeshLabHost& host = freshHost();
+		host.open(sample("pretzel.ply"));
+		const auto steps = host.run(sample(script));
+		ASSERT_FALSE(steps.empty());
+		for (const auto& step : steps)
+			EXPECT_FALSE(step.results.empty()) << qPrintable(step.filter);
+	}
+}
+
+TEST(FilterWavemesh, SimplifiesToAPercentageAndStaysCloseAndManifold)
+{
+	MeshLabHost&     host     = freshHost();
+	const MeshModel& original = *host.open(sample("blob.ply")).front();
+	MeshModel&       coarse   = *host.open(sample("blob.ply")).front();
+	const int        before   = coarse.cm.vn;
+	const auto       results =
+		host.apply("Simplification: Wavemesh", {{"target", "3"}, {"percentage", "25"}});
+	EXPECT_LE(coarse.cm.vn, before / 4);
+	EXPECT_GE(coarse.cm.vn, before / 40) << "the finest level below the ceiling, not any";
+	EXPECT_EQ(results.at("vertices").toInt(), coarse.cm.vn);
+	EXPECT_TRUE(results.at("target_reached").toBool());
+	EXPECT_TRUE(
+		host.apply("Compute Topological Measures").at("is_mesh_two_manifold").toBool());
+	EXPECT_LT(rmsToLayer(host, original, coarse), 0.02);
+}
+
+TEST(FilterWavemesh, BrowsingReturnsTheLayerBitForBit)
+{
+	for (const char* name : {"pretzel.ply", "island.ply", "pieces.ply"}) {
+		SCOPED_TRACE(name);
+		MeshLabHost& host = freshHost();
+		host.open(sample(name));
+		const Shape original(host.mesh());
+		const int   finest = browse(host, 0).at("finest_level").toInt();
+		ASSERT_GT(finest, 1);
+		EXPECT_LT(host.mesh().cm.vn, int(original.vertices.size()));
+		int last = host.mesh().cm.vn;
+		for (int level = 1; level < finest; ++level) {
+			browse(host, level);
+			EXPECT_GT(host.mesh().cm.vn, last) << "level " << level;
+			last = host.mesh().cm.vn;
+		}
+		browse(host, 1);
+		browse(host, finest);
+		EXPECT_TRUE(Shape(host.mesh()) == original);
+	}
+}
+
+TEST(FilterWavemesh, BrowsingALayerFromAFileUsesItsLevels)
+{
+	MeshLabHost& host = freshHost();
+	host.open(sample("pretzel.ply"));
+	host.save(scratch("browse.wmc"));
+	const QByteArray bytes = contents(scratch("browse.wmc"));
+	const StreamInfo info  = *readInfo(
+        reinterpret_cast<const std::uint8_t*>(bytes.constData()), std::size_t(bytes.size()));
+	host.clear();
+	host.open(scratch("browse.wmc"), {{"level", "1"}});
+	for (int level : {0, 2, info.finestLevel(), 0, info.finestLevel()}) {
+		const auto results = browse(host, level);
+		EXPECT_EQ(results.at("finest_level").toInt(), info.finestLevel());
+		EXPECT_EQ(
+			std::uint32_t(host.mesh().cm.vn), info.levels[std::size_t(level)].vertices);
+		EXPECT_EQ(results.at("bytes").toULongLong(), info.levels[std::size_t(level)].prefix);
+	}
+}
+
+TEST(FilterWavemesh, SavingABrowsedLayerAtItsFinestLevelKeepsTheMesh)
+{
+	MeshLabHost& host = freshHost();
+	host.open(sample("pretzel.ply"));
+	host.save(scratch("first.wmc"));
+	host.clear();
+	host.open(scratch("first.wmc"), {{"level", "0"}});
+	browse(host, -1);
+	const Shape shown(host.mesh());
+	host.save(scratch("second.wmc"));
+	host.clear();
+	host.open(scratch("second.wmc"));
+	EXPECT_EQ(host.mesh().cm.vn, int(shown.vertices.size()));
+	EXPECT_EQ(host.mesh().cm.fn, int(shown.faces.size()));
+}
+
+TEST(FilterWavemesh, AnEditedLayerIsEncodedAnew)
+{
+	MeshLabHost& host = freshHost();
+	host.open(sample("pretzel.ply"));
+	host.save(scratch("edited.wmc"));
+	host.clear();
+	host.open(scratch("edited.wmc"));
+	browse(host, 0);
+	browse(host, -1);
+	for (auto& v : host.mesh().cm.vert)
+		v.P() *= Scalarm(3);
+	vcg::tri::UpdateBounding<CMeshO>::Box(host.mesh().cm);
+	const Shape edited(host.mesh());
+	browse(host, 0);
+	browse(host, -1);
+	EXPECT_TRUE(Shape(host.mesh()) == edited) << "the old stream must not come back";
+}
+
+TEST(FilterWavemesh, LayersFromLevelsLeaveTheLayerAsItWas)
+{
+	MeshLabHost& host = freshHost();
+	MeshModel&   layer = *host.open(sample("vase.ply")).front();
+	const Shape  original(layer);
+	const auto   results =
+		host.apply("Wavemesh: Layers from Levels", {{"from", "0"}, {"to", "-1"}, {"step", "1"}});
+	const int finest = results.at("finest_level").toInt();
+	EXPECT_EQ(results.at("layers").toInt(), finest + 1);
+	EXPECT_EQ(int(host.document().meshNumber()), finest + 2);
+	EXPECT_TRUE(Shape(layer) == original);
+	double coarser = 1;
+	int    count   = 0;
+	for (MeshModel& m : host.document().meshIterator()) {
+		if (&m == &layer)
+			continue;
+		if (++count % 3 == 0) {
+			const double rms = rmsToLayer(host, layer, m);
+			EXPECT_LT(rms, coarser) << "finer levels are closer";
+			coarser = rms;
+		}
+	}
+}
+
+TEST(FilterWavemesh, AScriptMayLeaveOutEveryParameter)
+{
+	for (const char* filter :
+		 {"Simplification: Wavemesh", "Wavemesh: Browse Levels", "Wavemesh: Layers from Levels"}) {
+		SCOPED_TRACE(filter);
+		writeFile(
+			scratch("bare.mlx"),
+			QByteArray("<!DOCTYPE FilterScript><FilterScript><filter name=\"") + filter +
+				"\"/></FilterScript>");
+		MeshLabHost& host = freshHost();
+		host.open(sample("pebble.ply"));
+		EXPECT_EQ(host.run(scratch("bare.mlx")).size(), 1u);
+	}
+}
+
+TEST(FilterWavemesh, AMeshThatIsNoManifoldGivesAnErrorAndStaysAsItWas)
+{
+	// Three faces on one edge.
+	writeFile(
+		scratch("fin.off"), "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n"
+							"3 0 1 2\n3 1 0 3\n3 0 1 4\n");
+	for (const char* filter :
+		 {"Simplification: Wavemesh", "Wavemesh: Browse Levels", "Wavemesh: Layers from Levels"}) {
+		SCOPED_TRACE(filter);
+		MeshLabHost& host = freshHost();
+		host.open(scratch("fin.off"));
+		const Shape before(host.mesh());
+		EXPECT_NE(messageOf([&] { host.apply(filter); }), QString());
+		EXPECT_EQ(host.document().meshNumber(), 1u);
+		EXPECT_TRUE(Shape(host.mesh()) == before);
+	}
+	MeshLabHost& host = freshHost();
+	host.open(scratch("fin.off"));
+	EXPECT_NE(messageOf([&] { host.save(scratch("fin.wmc")); }), QString());
+	EXPECT_FALSE(QFile::exists(scratch("fin.wmc"))) << "a file appears whole or not at all";
+}
