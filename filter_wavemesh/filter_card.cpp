@@ -7,9 +7,9 @@ namespace wavemesh {
 namespace {
 
 constexpr char kReference[] =
-	"<br>See:<br><i>S. Valette, R. Prost</i><br><b>\"A Wavelet-Based Progressive Compression Scheme "
-	"for Triangle Meshes: Wavemesh\"</b><br>IEEE Transactions on Visualization and Computer Graphics, "
-	"2004.";
+	"<br>See:<br><i>S. Valette, R. Prost</i><br>"
+	"<b>\"A Wavelet-Based Progressive Compression Scheme for Triangle Meshes: Wavemesh\"</b><br>"
+	"IEEE Transactions on Visualization and Computer Graphics, 2004.";
 
 const FilterCard kSimplify = {
 	"Simplification: Wavemesh",

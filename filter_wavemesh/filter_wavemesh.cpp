@@ -50,29 +50,47 @@ private:
 	bool shown_;
 };
 
-std::map<std::string, QVariant> describe(const MeshModel& layer, const StreamInfo& info, int level)
+/// What a layer shows, for result maps and the log.
+struct Shown
 {
-	const LevelInfo& row = info.levels[std::size_t(level)];
-	return {
-		{"level", level},
-		{"finest_level", info.finestLevel()},
-		{"vertices", layer.cm.vn},
-		{"faces", layer.cm.fn},
-		{"bytes", countValue(row.prefix)},
-		{"error", row.error}};
-}
+	const MeshModel&  layer;
+	const StreamInfo& info;
+	int               level;
+	std::uint64_t     streamBytes; ///< less than info.bytes if the stream is cut
 
-QString sentence(const MeshModel& layer, const StreamInfo& info, int level)
-{
-	const LevelInfo& row = info.levels[std::size_t(level)];
-	return QString("Level %1 of %2: %3 vertices, %4 faces, %5 bytes, error %6.")
-		.arg(level)
-		.arg(info.finestLevel())
-		.arg(layer.cm.vn)
-		.arg(layer.cm.fn)
-		.arg(row.prefix)
-		.arg(row.error, 0, 'g', 3);
-}
+	/// Of a level that is cut, and in part predicted, the error is that of the one below it.
+	double error() const
+	{
+		const int whole = wholeLevels(info, streamBytes);
+		return info.levels[std::size_t(std::clamp(level, 0, whole - 1))].error;
+	}
+	std::uint64_t bytes() const
+	{
+		return std::min(info.levels[std::size_t(level)].prefix, streamBytes);
+	}
+
+	std::map<std::string, QVariant> results() const
+	{
+		return {
+			{"level", level},
+			{"finest_level", info.finestLevel()},
+			{"vertices", layer.cm.vn},
+			{"faces", layer.cm.fn},
+			{"bytes", countValue(bytes())},
+			{"error", error()}};
+	}
+	std::string sentence() const
+	{
+		return QString("Level %1 of %2: %3 vertices, %4 faces, %5 bytes, error %6.")
+			.arg(level)
+			.arg(info.finestLevel())
+			.arg(layer.cm.vn)
+			.arg(layer.cm.fn)
+			.arg(bytes())
+			.arg(error(), 0, 'g', 3)
+			.toStdString();
+	}
+};
 
 } // namespace
 
@@ -170,7 +188,9 @@ std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
 		switch (ID(action)) {
 		case FP_SIMPLIFY: return simplify(layer, parameters, cb);
 		case FP_BROWSE: return browse(layer, parameters, postConditionMask);
-		case FP_LAYERS: postConditionMask = MeshModel::MM_NONE; return makeLayers(document, parameters);
+		case FP_LAYERS:
+			postConditionMask = MeshModel::MM_NONE;
+			return makeLayers(document, parameters);
 		default: wrongActionCalled(action); return {};
 		}
 	});
@@ -202,8 +222,9 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::simplify(
 		exchangeMesh(layer, std::move(coarse));
 		layer.setLabel(plainLabel(layer.label()));
 	}
-	log(sentence(layer, info, chosen.level).toStdString());
-	Results results          = describe(layer, info, chosen.level);
+	const Shown shown {layer, info, chosen.level, info.bytes};
+	log(shown.sentence());
+	Results results           = shown.results();
 	results["target_reached"] = chosen.met;
 	return results;
 }
@@ -218,11 +239,15 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::browse(
 	if (level == levels->shown())
 		postConditionMask = MeshModel::MM_NONE; // nothing to draw anew
 	levels->show(layer, level);
-	const int whole = levels->info().finestLevel();
+	const StreamInfo& info  = levels->info();
+	const bool        exact = wholeLevels(info, levels->stream()->size()) > info.finestLevel();
 	layer.setLabel(
-		level == whole ? plainLabel(layer.label()) : levelLabel(layer.label(), level, whole));
-	log(sentence(layer, levels->info(), level).toStdString());
-	return describe(layer, levels->info(), level);
+		level == info.finestLevel() && exact ?
+			plainLabel(layer.label()) :
+			levelLabel(layer.label(), level, info.finestLevel()));
+	const Shown shown {layer, info, level, levels->stream()->size()};
+	log(shown.sentence());
+	return shown.results();
 }
 
 FilterWavemeshPlugin::Results
@@ -238,7 +263,7 @@ FilterWavemeshPlugin::makeLayers(MeshDocument& document, const RichParameterList
 		MeshModel* made =
 			document.addNewMesh(QString(), levelLabel(name, level, finest), false);
 		levels->copyTo(*made, layer, level);
-		log(sentence(*made, levels->info(), level).toStdString());
+		log(Shown {*made, levels->info(), level, levels->stream()->size()}.sentence());
 	}
 	return {
 		{"layers", int(chosen.size())},
@@ -282,8 +307,8 @@ std::pair<int, int> FilterWavemeshPlugin::levelRange(const MeshModel& layer)
 		const auto         info   = readInfo(stream->data(), stream->size());
 		if (info.ok()) {
 			const int whole = wholeLevels(*info, stream->size()) - 1;
-			return valid ? std::pair(std::max(whole, kept->level), kept->level) :
-						   std::pair(whole, whole);
+			const int shown = valid ? kept->level : whole;
+			return {std::max(whole, shown), shown};
 		}
 	}
 	catch (const std::exception&) {

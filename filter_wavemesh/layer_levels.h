@@ -12,8 +12,8 @@
 
 namespace wavemesh {
 
-/// The levels of one layer: a decoder that goes only as far as was asked, every level it passed, and
-/// the finest mesh itself while a coarser level is shown.
+/// The levels of one layer: a decoder that goes only as far as was asked, every level it passed,
+/// and the finest mesh itself while a coarser level is shown.
 ///
 /// Kept on the layer between the calls, so that it lives and dies with it.
 /// Invariant: whoever comes back to the finest level gets the mesh that was taken from the layer
@@ -39,8 +39,8 @@ public:
 	int finest() const { return finest_; }
 	int shown() const { return shown_; }
 
-	/// Shows a level, 0..finest(). Cost: decoding, once, the levels up to it that were not asked for
-	/// before; then linear in the level.
+	/// Shows a level, 0..finest(). Cost: decoding, once, the levels up to it that were not asked
+	/// for before; then linear in the level.
 	void show(MeshModel& layer, int level);
 
 	/// Puts a level on another layer: an exact copy of the finest mesh, or what is decoded.

@@ -16,7 +16,8 @@ void addLevelListParameters(RichParameterList& list)
 	list.addParam(RichInt(
 		"to", kFinestLevel, "To level",
 		"-1, or a number larger than there are levels, is the finest level."));
-	list.addParam(RichInt("step", 1, "Step", "Every how many levels: 1 for each, 2 for every other."));
+	list.addParam(
+		RichInt("step", 1, "Step", "Every how many levels: 1 for each, 2 for every other."));
 	list.addParam(RichString(
 		"levels", "", "Or these levels",
 		"A list of levels, such as <i>0, 2, 5, -1</i>, used in place of the range above. -1 is the "
@@ -25,7 +26,9 @@ void addLevelListParameters(RichParameterList& list)
 
 std::vector<int> levelList(const RichParameterList& list, int finest)
 {
-	const auto    clamped = [finest](int level) { return level < 0 ? finest : std::min(level, finest); };
+	const auto clamped = [finest](int level) {
+		return level < 0 ? finest : std::min(level, finest);
+	};
 	std::set<int> chosen;
 	const QString text = textOf(list, "levels", "").simplified();
 	if (!text.isEmpty()) {

@@ -35,6 +35,11 @@ struct OpenRequest
 	}
 };
 
+SharedBytes readShared(const QString& fileName, const OpenRequest& request)
+{
+	return std::make_shared<const std::vector<std::uint8_t>>(readFile(fileName, request.maxBytes));
+}
+
 /// Shows `mesh`, level `level` of `stream`, and leaves the stream on the layer for filter_wavemesh.
 void fillLayer(MeshModel& layer, const MeshData& mesh, int level, SharedBytes stream)
 {
@@ -77,9 +82,9 @@ RichParameterList IOWavemeshPlugin::initPreOpenParameter(const QString& format) 
 		return list;
 	list.addParam(RichInt(
 		"level", kFinestLevel, "Level",
-		"Level of detail to open: 0 is the base mesh, the coarsest; -1, or a number larger than the "
-		"file has levels, is the finest, the whole mesh. The other levels stay at hand: see the "
-		"filter <i>Wavemesh: Browse Levels</i>."));
+		"Level of detail to open: 0 is the base mesh, the coarsest; -1, or a number larger than "
+		"the file has levels, is the finest, the whole mesh. The other levels stay at hand: see "
+		"the filter <i>Wavemesh: Browse Levels</i>."));
 	list.addParam(RichInt(
 		"max_bytes", 0, "Max. bytes (0 = whole file)",
 		"Read no more than so many bytes of the file, and show the finest level that they hold."));
@@ -125,8 +130,7 @@ void IOWavemeshPlugin::open(
 		}
 		if (format.toUpper() != kExtension)
 			wrongOpenFormat(format);
-		const auto bytes = std::make_shared<const std::vector<std::uint8_t>>(
-			readFile(fileName, request.maxBytes));
+		const auto bytes    = readShared(fileName, request);
 		auto       decoder  = Decoder::open(bytes->data(), bytes->size());
 		const auto progress = progressBar(cb, "Decoding levels...");
 		require(decoder.status(), "Cannot open " + fileName);
@@ -147,9 +151,9 @@ void IOWavemeshPlugin::open(
 				.toStdString());
 		if (bytes->size() < decoder->info().bytes && request.maxBytes >= bytes->size())
 			reportWarning(QString("%1 is truncated: %2 of its %3 levels are whole.")
-					 .arg(fileName)
-					 .arg(wholeLevels(decoder->info(), bytes->size()))
-					 .arg(finest + 1));
+							  .arg(fileName)
+							  .arg(wholeLevels(decoder->info(), bytes->size()))
+							  .arg(finest + 1));
 	});
 }
 
@@ -166,8 +170,7 @@ void IOWavemeshPlugin::open(
 			wrongOpenFormat(format);
 		const OpenRequest request(parameters);
 		const Stopwatch   watch;
-		const auto        bytes = std::make_shared<const std::vector<std::uint8_t>>(
-            readFile(fileName, request.maxBytes));
+		const SharedBytes bytes = readShared(fileName, request);
 
 		DecodeOptions options;
 		options.level    = request.level;
@@ -176,18 +179,21 @@ void IOWavemeshPlugin::open(
 		if (!decoded.hasValue())
 			require(decoded.status(), "Cannot open " + fileName);
 
-		const StreamInfo& info = decoded->info;
+		const StreamInfo& info  = decoded->info;
+		const bool        whole = decoded->level < wholeLevels(info, bytes->size());
 		fillLayer(layer, decoded->mesh, decoded->level, bytes);
 		layer.setLabel(
-			decoded->level == info.finestLevel() ?
+			decoded->level == info.finestLevel() && whole ?
 				plainLabel(layer.label()) :
 				levelLabel(layer.label(), decoded->level, info.finestLevel()));
 		mask = 0;
 		if (decoded.status().code == StatusCode::Truncated && bytes->size() < request.maxBytes)
-			reportWarning(QString("%1 is truncated: it has %2 of %3. Level %4 of %5 is shown.")
-					 .arg(fileName, QString::number(bytes->size()), byteCount(info.bytes))
-					 .arg(decoded->level)
-					 .arg(info.finestLevel()));
+			reportWarning(
+				QString("%1 is truncated: it has %2 of %3. Level %4 of %5 is shown%6.")
+					.arg(fileName, QString::number(bytes->size()), byteCount(info.bytes))
+					.arg(decoded->level)
+					.arg(info.finestLevel())
+					.arg(whole ? "" : ", in part predicted"));
 		log(QString("Opened level %1 of %2: %3 vertices, %4 faces, from %5 in %6 s.")
 				.arg(decoded->level)
 				.arg(info.finestLevel())

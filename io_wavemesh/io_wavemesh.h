@@ -19,15 +19,15 @@ public:
 
 	RichParameterList initPreOpenParameter(const QString& format) const override;
 
-	/// 1, or with "all levels as layers" the number of levels that the file (up to max. bytes) holds
-	/// whole. A file that cannot be opened counts as 1: open() says why.
+	/// 1, or with "all levels as layers" the number of levels that the file (up to max. bytes)
+	/// holds whole. A file that cannot be opened counts as 1: open() says why.
 	unsigned int numberMeshesContainedInFile(
 		const QString&           format,
 		const QString&           fileName,
 		const RichParameterList& parameters) const override;
 
-	/// Opens one level on every layer of `layers`: the first gets the base mesh. With one layer, the
-	/// level that the parameters ask for.
+	/// Opens one level on every layer of `layers`: the first gets the base mesh. With one layer,
+	/// the level that the parameters ask for.
 	void open(
 		const QString&               format,
 		const QString&               fileName,

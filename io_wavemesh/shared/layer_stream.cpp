@@ -64,10 +64,10 @@ int wholeLevels(const StreamInfo& info, std::uint64_t size)
 std::uint64_t fingerprint(const CMeshO& m)
 {
 	const MeshData data = toMeshData(m);
-	std::uint64_t  hash = data.positions.size() * 0x9e3779b97f4a7c15ull + data.triangles.size();
-	const auto     mix  = [&hash](std::uint64_t word) {
-        hash = (hash ^ word) * 0x9e3779b97f4a7c15ull;
-        hash ^= hash >> 29;
+	std::uint64_t hash = data.positions.size() * 0x9e3779b97f4a7c15ull + data.triangles.size();
+	const auto mix = [&hash](std::uint64_t word) {
+		hash = (hash ^ word) * 0x9e3779b97f4a7c15ull;
+		hash ^= hash >> 29;
 	};
 	for (const auto& p : data.positions)
 		for (double x : p) {

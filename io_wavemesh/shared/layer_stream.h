@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// What ties a layer to the `.wmc` it shows, and the few ways in which a level is put on a layer.
-/// io_wavemesh leaves the compressed bytes on the layers it opens; filter_wavemesh finds them there.
+/// io_wavemesh leaves the compressed bytes on the layers it opens; filter_wavemesh finds them.
 #pragma once
 
 #include <wavemesh/codec.h>
@@ -43,8 +43,8 @@ std::uint64_t fingerprint(const CMeshO& m);
 /// A mesh for a layer, with normals and bounding box, from decoded arrays.
 std::unique_ptr<CMeshO> makeMesh(const MeshData& data);
 
-/// Exchanges what the layer shows for `mesh`, and its data mask of optional data for `dataMask`. The
-/// transformation and the camera stay the layer's. No element is copied: what comes back can be put
+/// Exchanges what the layer shows for `mesh`, and its data mask of optional data for `dataMask`.
+/// The transformation and the camera stay the layer's. No element is copied: what comes back can be put
 /// back, bit for bit.
 /// @return the mesh that was there, with its attributes (streams among them)
 std::unique_ptr<CMeshO>

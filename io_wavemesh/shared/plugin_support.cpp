@@ -93,9 +93,8 @@ QVariant countValue(std::uint64_t count)
 
 static std::int64_t nowNanoseconds()
 {
-	return std::chrono::duration_cast<std::chrono::nanoseconds>(
-			   std::chrono::steady_clock::now().time_since_epoch())
-		.count();
+	const auto now = std::chrono::steady_clock::now().time_since_epoch();
+	return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
 Stopwatch::Stopwatch() : start_(nowNanoseconds()) {}
