@@ -68,7 +68,7 @@ last_level_is() {
 picture() {
 	sleep 1
 	import -window root "$out/$1.png"
-	convert "$out/$1.png" -crop 385x600+2+74 +repage "$out/$1-view.png"
+	convert "$out/$1.png" -crop 790x690+2+74 +repage "$out/$1-view.png"
 }
 
 # differing A B: how many pixels of the two views differ
@@ -109,7 +109,7 @@ sleep 0.5
 xdotool key Down Return
 focus 'Wavemesh: Browse Levels'
 dialog=$(window 'Wavemesh: Browse Levels')
-xdotool windowmove "$dialog" 395 100
+xdotool windowmove "$dialog" 794 90
 sleep 0.5
 eval "$(xdotool getwindowgeometry --shell "$dialog")" # X Y WIDTH HEIGHT
 : "${X:?}" "${Y:?}" "${WIDTH:?}" "${HEIGHT:?}"
@@ -172,21 +172,19 @@ sleep 1
 xdotool mousemove "$close_x" "$buttons_y" click 1
 focus 'MeshLab 20'
 
+# Ctrl+E saves the layer under its own name, after asking how.
+cp "$out/original.wmc" "$out/opened.wmc"
+rm "$out/original.wmc"
 xdotool key ctrl+e
-focus 'Export Mesh|Save'
-picture save
-xdotool key ctrl+a
-xdotool type "$out/saved.wmc"
-xdotool key Return
 focus 'Choose Saving Options'
 picture save-options
 xdotool key Return
-eventually 20 test -s "$out/saved.wmc"
+eventually 20 grep -q 'LOG: . Saved Mesh' "$out/meshlab.log"
 picture saved
 
 # What was browsed and saved is still the mesh that was opened.
-"$build/wmc" decode "$out/original.wmc" "$out/original.ply"
-"$build/wmc" verify "$out/original.ply" "$out/saved.wmc" ||
-	fail "The saved file does not hold the mesh that was opened."
+"$build/wmc" decode "$out/opened.wmc" "$out/opened.ply" >/dev/null
+"$build/wmc" verify "$out/opened.ply" "$out/original.wmc" >"$out/verify.log" 2>&1 ||
+	fail "The saved file does not hold the mesh that was opened: $(<"$out/verify.log")"
 kill -0 "$meshlab" || fail "MeshLab has ended."
 echo "Browsed $((finest + 1)) levels; the pictures are in $out"
