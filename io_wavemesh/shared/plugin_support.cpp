@@ -16,9 +16,9 @@ QString explain(const Status& status)
 		text += '.';
 	switch (status.code) {
 	case StatusCode::Unsupported:
-		return text + " The filters of the menu Cleaning and Repairing (duplicate and unreferenced "
-					  "vertices, duplicate and null faces, non manifold edges and vertices) make a "
-					  "mesh that can be encoded.";
+		return text + " The mesh has to be an oriented manifold. These filters help: Remove "
+					  "Unreferenced Vertices, Remove Duplicate Faces, Repair non Manifold Edges, "
+					  "Repair non Manifold Vertices by splitting, Re-Orient all faces coherently.";
 	case StatusCode::VersionTooNew: return text + " A newer Wavemesh is needed to read it.";
 	case StatusCode::OutOfMemory:
 		return text + " Open it at a coarser level, or close other layers.";
