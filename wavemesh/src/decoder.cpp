@@ -102,6 +102,7 @@ Status Decoder::State::readBase()
 		return base.status().code == StatusCode::Truncated ? ended("the base mesh") : base.status();
 	table     = std::move(base->table);
 	positions = std::move(base->positions);
+	level     = 0;
 	return {};
 }
 
@@ -143,11 +144,10 @@ Status Decoder::State::advance()
 	if (level < 0 || row(level).endsChunk)
 		if (Status s = openChunk(); !s.ok())
 			return s;
-	if (level >= 0)
-		return readSplit();
-	if (Status s = readBase(); !s.ok())
+	if (Status s = level < 0 ? readBase() : readSplit(); !s.ok())
 		return s;
-	level = 0;
+	if (row(level).endsChunk && !chunk.whole)
+		return {StatusCode::Truncated, "the file ends inside the checksum of " + levelName(level), size};
 	return {};
 }
 

@@ -78,29 +78,46 @@ public:
 	LevelWriter(Head& head, std::vector<std::uint8_t>& chunks) : head_(head), chunks_(chunks) {}
 
 	RangeEncoder& coder() { return coder_; }
-	void          connectivityEnds() { connectivityEnd_ = coder_.size(); }
+	void          connectivityEnds() { connectivityEnd_ = coder_.mark(); }
 
-	void endLevel(LevelRow row, bool last)
+	void endLevel(const LevelRow& row, bool last)
 	{
-		row.endsChunk = last || coder_.size() >= kChunkSize;
-		std::size_t end = coder_.size();
-		if (row.endsChunk) {
-			const auto payload = coder_.finish();
-			writeChunk(kLevelChunk, payload, chunks_);
-			end = payload.size();
-		}
-		const std::size_t middle = std::min(connectivityEnd_, end);
-		row.bytes                = std::uint32_t(end - levelBegin_);
-		row.connectivityBytes    = std::uint32_t(middle - std::min(middle, levelBegin_));
-		levelBegin_              = row.endsChunk ? 0 : end;
-		head_.rows.push_back(row);
+		levels_.push_back({row, connectivityEnd_, coder_.mark()});
+		connectivityEnd_ = coder_.mark();
+		if (last || coder_.mark().size >= kChunkSize)
+			endChunk();
 	}
 
 private:
+	struct Level
+	{
+		LevelRow           row;
+		RangeEncoder::Mark connectivityEnd, end;
+	};
+
+	void endChunk()
+	{
+		const auto payload = coder_.finish();
+		writeChunk(kLevelChunk, payload, chunks_);
+		std::size_t begin = 0;
+		for (Level& level : levels_) {
+			const std::size_t middle    = RangeEncoder::prefix(payload, level.connectivityEnd);
+			const std::size_t end       = RangeEncoder::prefix(payload, level.end);
+			level.row.bytes             = std::uint32_t(end - begin);
+			level.row.connectivityBytes = std::uint32_t(middle - begin);
+			level.row.endsChunk         = &level == &levels_.back();
+			begin                       = end;
+			head_.rows.push_back(level.row);
+		}
+		levels_.clear();
+		connectivityEnd_ = {};
+	}
+
 	Head&                      head_;
 	std::vector<std::uint8_t>& chunks_;
 	RangeEncoder               coder_;
-	std::size_t                levelBegin_ = 0, connectivityEnd_ = 0;
+	std::vector<Level>         levels_; ///< of the chunk being written
+	RangeEncoder::Mark         connectivityEnd_;
 };
 
 Result<EncodedMesh> encodeOnce(

@@ -38,16 +38,24 @@ public:
 	}
 	bool exhausted() const { return false; }
 
-	/// Bytes after which everything written so far is determined, whatever follows.
-	std::size_t size() const { return bytes_.size() + kTail; }
+	/// A point between two bits.
+	struct Mark
+	{
+		std::size_t   size = 0; ///< bytes that no later bit can change
+		std::uint32_t low  = 0;
+		std::uint32_t high = ~std::uint32_t {0};
+	};
+	Mark mark() const { return {bytes_.size(), low_, high_}; }
+
 	/// Ends the stream with as few bytes as determine it, returns it and starts a new one.
 	std::vector<std::uint8_t> finish();
+	/// Length of the shortest prefix of a finished stream that determines every bit before the mark.
+	static std::size_t prefix(const std::vector<std::uint8_t>& stream, const Mark& mark);
 
 private:
-	static constexpr std::size_t kTail = 4;
-	std::uint32_t                low_  = 0;
-	std::uint32_t                high_ = ~std::uint32_t {0};
-	std::vector<std::uint8_t>    bytes_;
+	std::uint32_t             low_  = 0;
+	std::uint32_t             high_ = ~std::uint32_t {0};
+	std::vector<std::uint8_t> bytes_;
 };
 
 /// Reads a stream or the beginning of one. Bits are exact as long as the bytes determine them; from
