@@ -123,58 +123,64 @@ private:
 	AdaptiveUnsigned<MaxBits> magnitude_;
 };
 
-/// Logistic mixing of up to N models: p = squash(sum of weight * stretch(p_i)), the weights learn
-/// from every bit (PAQ family; M. Mahoney).
+/// Logistic mixing of N models: p = squash(sum of weight * stretch(p_i)), the weights learn from
+/// every bit (PAQ family; M. Mahoney). Everything fits into 32 bits.
 template<int N>
 class Mixer
 {
 public:
 	/// @param sets  number of weight sets; one is selected for each bit
-	explicit Mixer(int sets) : weights_(std::size_t(sets))
+	explicit Mixer(int sets) : sets_(std::size_t(sets))
 	{
-		for (Weights& w : weights_)
-			w.of.fill(65536 * 3 / (2 * N));
+		for (Set& s : sets_)
+			s.weight.fill(kOne * 3 / (2 * N));
 	}
 
 	/// Codes a bit with all of `models`, which learn it too.
 	template<class Coder>
 	bool code(Coder& coder, const std::array<AdaptiveBit*, N>& models, int set, bool value, int limit)
 	{
-		Weights&             w = weights_[std::size_t(set)];
-		std::array<int, N>   input;
-		std::int64_t         dot = 0;
-		for (std::size_t i = 0; i < N; ++i) {
+		Set&                        s = sets_[std::size_t(set)];
+		std::array<std::int32_t, N> input;
+		std::int32_t                sum = 0;
+		for (std::size_t i = 0; i < N; ++i)
 			input[i] = stretch(models[i]->p());
-			dot += std::int64_t(input[i]) * w.of[i];
-		}
-		const Probability p = squash(static_cast<int>(std::clamp<std::int64_t>(dot >> 16, -2047, 2047)));
+		for (std::size_t i = 0; i < N; ++i)
+			sum += input[i] * s.weight[i];
+		const Probability p = squash(sum >> kFraction);
 		value               = coder.bit(value, p);
 
-		const int error = ((value ? 65535 : 0) - static_cast<int>(p)) * w.rate();
-		for (std::size_t i = 0; i < N; ++i) {
-			const std::int64_t change = (std::int64_t(input[i]) * error + (1 << 19)) >> 20;
-			w.of[i] = static_cast<std::int32_t>(
-				std::clamp<std::int64_t>(w.of[i] + change, -(1 << 22), 1 << 22));
+		const std::int32_t error = (((value ? 65535 : 0) - static_cast<std::int32_t>(p)) * s.rate()) >> 4;
+		for (std::size_t i = 0; i < N; ++i)
+			s.weight[i] = std::clamp(
+				s.weight[i] + ((input[i] * error + (1 << 17)) >> 18), -kLargest, kLargest);
+		for (std::size_t i = 0; i < N; ++i)
 			models[i]->update(value, limit);
-		}
 		return value;
 	}
 
 private:
-	struct Weights
+	static constexpr int          kFraction = 14;
+	static constexpr std::int32_t kOne      = 1 << kFraction;
+	static constexpr std::int32_t kLargest  = 8 * kOne - 1;
+	static_assert(N <= 8, "the sum must stay below 2^31");
+
+	struct Set
 	{
-		std::array<std::int32_t, N> of; ///< 1/65536
-		int                         seen = 0;
+		std::array<std::int32_t, N> weight; ///< 1/16384
+		std::int32_t                seen = 0;
 
 		/// Learning rate: high at first, then slow.
-		int rate()
+		std::int32_t rate()
 		{
-			if (seen < 512)
-				++seen;
+			if (seen == kYoung)
+				return 4;
+			++seen;
 			return 3 + 768 / (seen + 48);
 		}
+		static constexpr std::int32_t kYoung = 512;
 	};
-	std::vector<Weights> weights_;
+	std::vector<Set> sets_;
 };
 
 } // namespace wavemesh
