@@ -111,7 +111,7 @@ void LayerLevels::copyTo(MeshModel& other, const MeshModel& layer, int level)
 		for (const std::string& name : mesh.textures)
 			other.addTexture(name, layer.getTexture(name));
 	}
-	attach(other, stream_, level);
+	keepStream(other.cm, {stream_, level, fingerprint(other.cm)});
 }
 
 } // namespace wavemesh
