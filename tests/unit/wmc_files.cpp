@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wmc_files.h"
+
+#include "container/byte_io.h"
+#include "mesh_families.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace wavemesh::test {
+
+ExactBuffer::ExactBuffer(const std::uint8_t* data, std::size_t size) :
+        block_(new std::uint8_t[size]), size_(size)
+{
+	std::copy(data, data + size, block_.get());
+}
+
+std::vector<ChunkPlace> chunksOf(const Bytes& file)
+{
+	constexpr std::size_t kMagicSize = 8, kChecksumSize = 4;
+	std::vector<ChunkPlace> chunks;
+	for (std::size_t at = kMagicSize; at < file.size();) {
+		ChunkPlace c;
+		c.begin            = at;
+		c.type             = file.at(at++);
+		std::size_t length = 0;
+		for (int shift = 0;; shift += 7) {
+			const std::uint8_t b = file.at(at++);
+			length |= static_cast<std::size_t>(b & 127) << shift;
+			if (b < 128)
+				break;
+		}
+		c.payload  = at;
+		c.checksum = at + length;
+		at = c.end = c.checksum + kChecksumSize;
+		if (c.end > file.size())
+			throw std::runtime_error("not a whole file");
+		chunks.push_back(c);
+	}
+	return chunks;
+}
+
+void mendChecksum(Bytes& file, const ChunkPlace& chunk)
+{
+	const std::uint32_t sum = checksum(file.data() + chunk.begin, chunk.checksum - chunk.begin);
+	for (std::size_t i = 0; i < 4; ++i)
+		file[chunk.checksum + i] = static_cast<std::uint8_t>(sum >> (8 * i));
+}
+
+Bytes makeChunk(std::uint8_t type, const Bytes& payload)
+{
+	Bytes chunk {type};
+	std::size_t n = payload.size();
+	for (; n >= 128; n >>= 7)
+		chunk.push_back(static_cast<std::uint8_t>(n | 128));
+	chunk.push_back(static_cast<std::uint8_t>(n));
+	chunk.insert(chunk.end(), payload.begin(), payload.end());
+	ChunkPlace place;
+	place.checksum = chunk.size();
+	chunk.resize(chunk.size() + 4);
+	mendChecksum(chunk, place);
+	return chunk;
+}
+
+std::vector<SmallFile> smallFiles()
+{
+	struct Recipe
+	{
+		const char* name;
+		MeshData mesh;
+		int bits, lifting;
+		Wgc wgc;
+	};
+	const Recipe recipes[] = {
+	    {"triangle", makeTriangle(), 8, kLiftingOff, Wgc::Off},
+	    {"sphere_lazy", makeIcosphere(3), 8, kLiftingOff, Wgc::Off},
+	    {"flipped_sphere", makeFlippedSphere(40, 5), 6, 0, Wgc::Off},
+	    {"terrain", makeTerrain(50, 1), 7, 1, Wgc::On},
+	    {"components",
+	     joined({makeTorus(5, 4), moved(makeStrip(5), 3, 0, 0), moved(makeTetrahedron(), 0, 4, 0)}),
+	     7, kLiftingOff, Wgc::Auto},
+	    {"kleetope", makeKleetope(makeIcosahedron()), 5, 2, Wgc::Off},
+	    {"several_chunks", makeFlippedSphere(300, 15), 10, kLiftingOff, Wgc::Off},
+	};
+	std::vector<SmallFile> files;
+	for (const Recipe& r : recipes) {
+		EncodeOptions o;
+		o.bits    = r.bits;
+		o.lifting = r.lifting;
+		o.wgc     = r.wgc;
+		auto file = encode(r.mesh, o);
+		if (!file.ok())
+			throw std::runtime_error(file.status().what);
+		files.push_back({r.name, r.mesh, std::move(*file)});
+	}
+	return files;
+}
+
+} // namespace wavemesh::test
