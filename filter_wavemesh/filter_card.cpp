@@ -30,7 +30,8 @@ const FilterCard kBrowse = {
 	"mesh, the coarsest; the finest level is the layer as it was, colours and all. Nothing is lost "
 	"in either direction.<br>"
 	"A layer opened from a .wmc file has its levels at hand; those of another layer were made when "
-	"this dialog opened. The levels of an edited layer are made anew from the edited mesh.",
+	"this dialog opened. Colours and selections made on a coarser level last while it is shown; a "
+	"layer whose shape was edited gets new levels, made from what it shows.",
 	FilterPlugin::Remeshing | FilterPlugin::Layer,
 	// The preview is offered only to filters that change no counts. It would restore what is named
 	// here; the levels themselves are restored by LayerLevels. The true mask goes out when applied.

@@ -277,7 +277,8 @@ std::shared_ptr<LayerLevels> FilterWavemeshPlugin::levelsOf(MeshModel& layer)
 	if (auto levels = LayerLevels::find(layer))
 		return levels;
 	if (findStream(layer.cm) != nullptr)
-		log(GLLogStream::WARNING, "The layer was edited: its levels are made anew.");
+		log(GLLogStream::WARNING,
+			"The layer was edited: its levels are made anew, and what it shows is the finest.");
 	const SharedBytes stream = encodeForBrowsing(layer);
 	const auto        info   = readInfo(stream->data(), stream->size());
 	require(info.status(), "Cannot browse " + layer.label());

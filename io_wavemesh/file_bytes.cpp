@@ -4,6 +4,7 @@
 #include "shared/plugin_support.h"
 
 #include <QFile>
+#include <QFileInfo>
 #include <QSaveFile>
 
 #include <algorithm>
@@ -18,11 +19,12 @@ constexpr std::uint64_t kLargestFile = std::uint64_t {4} << 30;
 
 std::vector<std::uint8_t> readFile(const QString& name, std::uint64_t maxBytes)
 {
+	const QFileInfo found(name);
+	if (found.exists() && !found.isFile()) // a pipe would have us wait for its writer
+		throw MLException("Cannot read " + name + ": it is not a regular file.");
 	QFile file(name);
 	if (!file.open(QIODevice::ReadOnly))
 		throw MLException("Cannot read " + name + ": " + file.errorString() + ".");
-	if (file.isSequential())
-		throw MLException("Cannot read " + name + ": it is not a regular file.");
 	const std::uint64_t wanted = std::min(std::uint64_t(file.size()), maxBytes);
 	if (wanted > kLargestFile)
 		throw MLException("Cannot read " + name + ": it is larger than any .wmc file can be.");

@@ -35,9 +35,21 @@ struct OpenRequest
 	}
 };
 
-SharedBytes readShared(const QString& fileName, const OpenRequest& request)
+/// Reads what the request asks for. The head comes first: a large file of another kind is refused
+/// after a few pages. One byte more than the head declares is read, so that the decoder sees an
+/// appendix.
+SharedBytes readWmc(const QString& fileName, const OpenRequest& request)
 {
-	return std::make_shared<const std::vector<std::uint8_t>>(readFile(fileName, request.maxBytes));
+	constexpr std::uint64_t kEnoughForAHead = 1 << 16;
+
+	std::uint64_t limit = request.maxBytes;
+	const auto    head  = readFile(fileName, std::min(limit, kEnoughForAHead));
+	const auto    info  = readInfo(head.data(), head.size());
+	if (info.ok())
+		limit = std::min(limit, info->bytes + 1);
+	else if (info.status().code != StatusCode::Truncated || head.size() < kEnoughForAHead)
+		require(info.status(), "Cannot open " + QFileInfo(fileName).fileName());
+	return std::make_shared<const std::vector<std::uint8_t>>(readFile(fileName, limit));
 }
 
 /// Shows `mesh`, level `level` of `stream`, and leaves the stream on the layer for filter_wavemesh.
@@ -103,11 +115,10 @@ unsigned int IOWavemeshPlugin::numberMeshesContainedInFile(
 		const OpenRequest request(parameters);
 		if (format.toUpper() != kExtension || !request.allLevels)
 			return 1;
-		const std::vector<std::uint8_t> bytes = readFile(fileName, request.maxBytes);
-		const auto                      info  = readInfo(bytes.data(), bytes.size());
-		if (!info.ok())
-			return 1;
-		int count = wholeLevels(*info, bytes.size());
+		const SharedBytes bytes = readWmc(fileName, request);
+		const auto        info  = readInfo(bytes->data(), bytes->size());
+		require(info.status(), "Cannot open " + QFileInfo(fileName).fileName());
+		int count = wholeLevels(*info, bytes->size());
 		if (request.level >= 0)
 			count = std::min(count, request.level + 1);
 		return unsigned(std::max(count, 1));
@@ -130,7 +141,7 @@ void IOWavemeshPlugin::open(
 		}
 		if (format.toUpper() != kExtension)
 			wrongOpenFormat(format);
-		const auto bytes    = readShared(fileName, request);
+		const auto bytes    = readWmc(fileName, request);
 		auto       decoder  = Decoder::open(bytes->data(), bytes->size());
 		const auto progress = progressBar(cb, "Decoding levels...");
 		require(decoder.status(), "Cannot open " + fileName);
@@ -170,7 +181,7 @@ void IOWavemeshPlugin::open(
 			wrongOpenFormat(format);
 		const OpenRequest request(parameters);
 		const Stopwatch   watch;
-		const SharedBytes bytes = readShared(fileName, request);
+		const SharedBytes bytes = readWmc(fileName, request);
 
 		DecodeOptions options;
 		options.level    = request.level;

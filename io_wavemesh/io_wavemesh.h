@@ -20,7 +20,8 @@ public:
 	RichParameterList initPreOpenParameter(const QString& format) const override;
 
 	/// 1, or with "all levels as layers" the number of levels that the file (up to max. bytes)
-	/// holds whole. A file that cannot be opened counts as 1: open() says why.
+	/// holds whole.
+	/// @throws MLException if the file is none that can be opened
 	unsigned int numberMeshesContainedInFile(
 		const QString&           format,
 		const QString&           fileName,

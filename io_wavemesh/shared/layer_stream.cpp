@@ -63,21 +63,32 @@ int wholeLevels(const StreamInfo& info, std::uint64_t size)
 
 std::uint64_t fingerprint(const CMeshO& m)
 {
-	const MeshData data = toMeshData(m);
-	std::uint64_t hash = data.positions.size() * 0x9e3779b97f4a7c15ull + data.triangles.size();
+	std::uint64_t hash = std::uint64_t(m.vn) * 0x9e3779b97f4a7c15ull + std::uint64_t(m.fn);
 	const auto mix = [&hash](std::uint64_t word) {
 		hash = (hash ^ word) * 0x9e3779b97f4a7c15ull;
 		hash ^= hash >> 29;
 	};
-	for (const auto& p : data.positions)
-		for (double x : p) {
-			std::uint64_t word;
-			std::memcpy(&word, &x, sizeof word);
+	// Deleted vertices vanish when MeshLab compacts the mesh, which is no edit: count without them.
+	std::vector<std::uint64_t> rank;
+	std::uint64_t              count = 0;
+	if (m.vert.size() != std::size_t(m.vn))
+		rank.resize(m.vert.size());
+	for (std::size_t i = 0; i < m.vert.size(); ++i) {
+		if (m.vert[i].IsD())
+			continue;
+		if (!rank.empty())
+			rank[i] = count++;
+		for (int k = 0; k < 3; ++k) {
+			std::uint64_t word = 0;
+			std::memcpy(&word, &m.vert[i].cP()[k], sizeof(Scalarm));
 			mix(word);
 		}
-	for (const auto& t : data.triangles)
-		for (std::uint32_t v : t)
-			mix(v);
+	}
+	for (const CFaceO& f : m.face)
+		for (int k = 0; k < 3 && !f.IsD(); ++k) {
+			const std::size_t i = vcg::tri::Index(m, f.cV(k));
+			mix(rank.empty() ? i : rank[i]);
+		}
 	return hash;
 }
 
