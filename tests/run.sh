@@ -17,8 +17,8 @@ configure meshlab "-DWAVEMESH_MESHLAB_2022_DIR=$meshlab_2022_source" \
 	"-DWAVEMESH_SANITIZE_BUILD_DIR=$root/build-sanitize"
 build_targets "Building Wavemesh: codec, tool, plugins and tests" "$build"
 
-configure sanitize "-DWAVEMESH_VCGLIB_DIR=$meshlab_source/src/vcglib"
-build_targets "Building codec, tool and tests with sanitizers" "$root/build-sanitize"
+configure sanitize "-DWAVEMESH_VCGLIB_DIR=$meshlab_source/src/vcglib" -DWAVEMESH_BUILD_TOOLS=OFF
+build_targets "Building codec and tests with sanitizers" "$root/build-sanitize"
 
 say "-- Testing"
 ctest --test-dir "$build" --output-on-failure --no-tests=error -j "$(nproc)" "$@" </dev/null

@@ -99,7 +99,13 @@ focus 'Pre-Open Options'
 xdotool key Return
 eventually 30 grep -q 'LOG: . Opened level' "$out/meshlab.log"
 main=$(window 'MeshLab 20')
-xdotool windowmove "$main" 0 0 windowsize "$main" 1270 890
+# MeshLab sizes its window too, a little later.
+is_large() {
+	xdotool windowmove "$main" 0 0 windowsize "$main" 1270 890
+	sleep 1
+	[[ $(xdotool getwindowgeometry --shell "$main") == *WIDTH=1270*HEIGHT=890* ]]
+}
+eventually 20 is_large
 focus 'MeshLab 20'
 
 xdotool key ctrl+f
