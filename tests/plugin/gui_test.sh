@@ -68,7 +68,7 @@ last_level_is() {
 picture() {
 	sleep 1
 	import -window root "$out/$1.png"
-	convert "$out/$1.png" -crop 790x690+2+74 +repage "$out/$1-view.png"
+	convert "$out/$1.png" -crop 778x690+2+74 +repage "$out/$1-view.png"
 }
 
 # differing A B: how many pixels of the two views differ
@@ -115,7 +115,7 @@ sleep 0.5
 xdotool key Down Return
 focus 'Wavemesh: Browse Levels'
 dialog=$(window 'Wavemesh: Browse Levels')
-xdotool windowmove "$dialog" 794 90
+xdotool windowmove "$dialog" 782 90
 sleep 0.5
 eval "$(xdotool getwindowgeometry --shell "$dialog")" # X Y WIDTH HEIGHT
 : "${X:?}" "${Y:?}" "${WIDTH:?}" "${HEIGHT:?}"
@@ -193,4 +193,9 @@ picture saved
 "$build/wmc" verify "$out/opened.ply" "$out/original.wmc" >"$out/verify.log" 2>&1 ||
 	fail "The saved file does not hold the mesh that was opened: $(<"$out/verify.log")"
 kill -0 "$meshlab" || fail "MeshLab has ended."
+
+# The README's picture of browsing: a level in the middle, the base mesh and the finest level.
+convert \( "$out/middle.png" -crop 1270x856+0+0 +repage -resize 1000x \) \
+	\( "$out/base.png" "$out/finest-after.png" -crop 1270x856+0+0 +repage -append -resize x674 \) \
+	+append -dither None -colors 128 -define png:compression-level=9 "$out/browse.png"
 echo "Browsed $((finest + 1)) levels; the pictures are in $out"
