@@ -160,12 +160,15 @@ void addDecode(CLI::App& app, Command& chosen)
 	        "Level to stop at: 0 is the coarsest; -1, or any past the finest, is the finest")
 	    ->check(CLI::Range(-1, 1 << 30))
 	    ->capture_default_str();
-	command->add_option(
-	    "--max-bytes", c->maxBytes,
-	    "Decode as if the file ended after this many bytes (default: all of it)");
+	command
+	    ->add_option(
+	        "--max-bytes", c->maxBytes,
+	        "Decode as if the file ended after this many bytes (default: all of it)")
+	    ->check(CLI::NonNegativeNumber);
 	command->add_option("--max-vertices", c->maxVertices, "Refuse files that declare more vertices")
 	    ->capture_default_str();
 	command->add_option("--max-faces", c->maxFaces, "Refuse files that declare more faces")
+	    ->check(CLI::NonNegativeNumber)
 	    ->capture_default_str();
 	addJson(*command, c->json);
 	command->footer(

@@ -1,30 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_distance.h"
 
-#include "vcg_mesh.h"
-
-#include <wavemesh/vcg_wmc.h>
-
-#include <vcg/complex/algorithms/closest.h>
-#include <vcg/complex/algorithms/update/component_ep.h>
-#include <vcg/space/index/grid_static_ptr.h>
+#include "closest_point.h"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace wavemesh::tool {
 
 namespace {
 
-using Point = vcg::Point3d;
-
 /// The n-th of points that fill a triangle evenly, as barycentric coordinates: the R2 sequence
 /// folded into the triangle.
-Point barycentric(std::uint64_t n)
+Vec3 barycentric(std::uint64_t n)
 {
 	const double whole = static_cast<double>(n) + 0.5;
-	double u           = std::fmod(whole * 0.7548776662466927, 1),
-	       v           = std::fmod(whole * 0.5698402909980532, 1);
+	double u           = std::fmod(whole * 0.7548776662466927, 1);
+	double v           = std::fmod(whole * 0.5698402909980532, 1);
 	if (u + v > 1) {
 		u = 1 - u;
 		v = 1 - v;
@@ -32,74 +25,103 @@ Point barycentric(std::uint64_t n)
 	return {1 - u - v, u, v};
 }
 
+double areaOf(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+	double sum = 0;
+	for (std::size_t k = 0; k < 3; ++k) {
+		const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+		const double n = (b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]);
+		sum += n * n;
+	}
+	return 0.5 * std::sqrt(sum);
+}
+
+double diagonalOf(const MeshData& mesh)
+{
+	double sum = 0;
+	for (std::size_t k = 0; k < 3; ++k) {
+		double low = mesh.positions[0][k], high = low;
+		for (const Vec3& p : mesh.positions) {
+			low  = std::min(low, p[k]);
+			high = std::max(high, p[k]);
+		}
+		sum += (high - low) * (high - low);
+	}
+	return std::sqrt(sum);
+}
+
 } // namespace
 
 struct DistanceMeter::Surface
 {
-	mutable VcgMesh mesh;
-	mutable vcg::GridStaticPtr<VcgFace, double> grid;
+	MeshData mesh;
+	ClosestPoint closest;
+	std::vector<double> areas; ///< of the faces
+	double area = 0;
 
-	explicit Surface(const MeshData& data)
+	explicit Surface(const MeshData& data) : mesh(data), closest(mesh)
 	{
-		fromMeshData(data, mesh);
-		vcg::tri::UpdateNormal<VcgMesh>::PerFaceNormalized(mesh);
-		grid.Set(mesh.face.begin(), mesh.face.end());
+		const auto& p = mesh.positions;
+		areas.reserve(mesh.triangles.size());
+		for (const auto& t : mesh.triangles) {
+			areas.push_back(areaOf(p[t[0]], p[t[1]], p[t[2]]));
+			area += areas.back();
+		}
 	}
 
-	double distanceTo(const Point& p, double reach) const
+	/// Calls `visit` with each of about `samples` points spread over the area.
+	template <class Visit>
+	void sample(std::size_t samples, Visit visit) const
 	{
-		double distance = reach;
-		Point nearest;
-		vcg::tri::GetClosestFaceBase(mesh, grid, p, reach, distance, nearest);
-		return std::fabs(distance);
+		const double density = area > 0 ? static_cast<double>(samples) / area : 0;
+		double due           = 0;
+		std::uint64_t count  = 0;
+		for (std::size_t f = 0; f < areas.size(); ++f) {
+			const auto& t = mesh.triangles[f];
+			// So many as this face's share; what is left over goes to the next.
+			for (due += density * areas[f]; due >= 1; due -= 1) {
+				const Vec3 w = barycentric(count++);
+				Vec3 p {};
+				for (std::size_t i = 0; i < 3; ++i)
+					for (std::size_t k = 0; k < 3; ++k)
+						p[k] += w[i] * mesh.positions[t[i]][k];
+				visit(p, count);
+			}
+		}
 	}
 };
 
 DistanceMeter::DistanceMeter(const MeshData& original, std::size_t samples) :
-        original_(std::make_unique<Surface>(original)), samples_(samples)
+        original_(std::make_unique<Surface>(original)), samples_(samples),
+        diagonal_(diagonalOf(original))
 {
+	if (!(diagonal_ > 0))
+		diagonal_ = 1;
 }
 
 DistanceMeter::~DistanceMeter() = default;
-
-double DistanceMeter::diagonal() const
-{
-	const double d = original_->mesh.bbox.Diag();
-	return d > 0 ? d : 1;
-}
 
 SurfaceDistance
 DistanceMeter::measure(const MeshData& mesh, const std::function<void(double)>& progress) const
 {
 	const Surface other(mesh);
-	const double reach = 10 * (diagonal() + other.mesh.bbox.Diag());
 	SurfaceDistance result;
 	double done = 0;
-
 	auto oneWay = [&](const Surface& from, const Surface& to) {
-		double area = 0;
-		for (const VcgFace& f : from.mesh.face)
-			area += vcg::DoubleArea(f);
-		double squares = 0, due = 0;
-		std::uint64_t count = 0;
-		for (const VcgFace& f : from.mesh.face) {
-			// So many as this face's share, what is left over goes to the next.
-			due += area > 0 ? static_cast<double>(samples_) * vcg::DoubleArea(f) / area : 0;
-			for (; due >= 1; due -= 1) {
-				const Point b  = barycentric(count++);
-				const Point p  = f.cP(0) * b[0] + f.cP(1) * b[1] + f.cP(2) * b[2];
-				const double d = to.distanceTo(p, reach);
-				squares += d * d;
-				result.max = std::max(result.max, d);
-				if (progress && count % 4096 == 0)
-					progress(
-					    done + 0.5 * static_cast<double>(count) / static_cast<double>(samples_));
-			}
-		}
-		for (const VcgVertex& v : from.mesh.vert) // corners are where the largest distances are
-			result.max = std::max(result.max, to.distanceTo(v.cP(), reach));
-		if (count > 0)
-			result.rms = std::max(result.rms, std::sqrt(squares / static_cast<double>(count)));
+		double squares     = 0;
+		std::uint64_t seen = 0;
+		from.sample(samples_, [&](const Vec3& p, std::uint64_t count) {
+			const double d = to.closest.distance(p);
+			squares += d * d;
+			result.max = std::max(result.max, d);
+			seen       = count;
+			if (progress && count % 4096 == 0)
+				progress(done + 0.5 * static_cast<double>(count) / static_cast<double>(samples_));
+		});
+		for (const Vec3& p : from.mesh.positions) // corners are where the largest distances are
+			result.max = std::max(result.max, to.closest.distance(p));
+		if (seen > 0)
+			result.rms = std::max(result.rms, std::sqrt(squares / static_cast<double>(seen)));
 		done += 0.5;
 	};
 	oneWay(*original_, other);

@@ -18,8 +18,8 @@ struct SurfaceDistance
 };
 
 /// Measures meshes against one original. Distances are from points of one surface to the nearest
-/// point of the other, found with VCGLib's uniform grid. The points are spread evenly over the
-/// area, the same ones every time; the maximum looks at the vertices too.
+/// point of the other. The points are spread evenly over the area, the same ones every time; the
+/// maximum looks at the vertices too.
 class DistanceMeter
 {
 public:
@@ -27,7 +27,8 @@ public:
 	DistanceMeter(const MeshData& original, std::size_t samples);
 	~DistanceMeter();
 
-	double diagonal() const; ///< of the original's bounding box, model units; never 0
+	/// Of the original's bounding box, model units; never 0.
+	double diagonal() const { return diagonal_; }
 
 	SurfaceDistance
 	measure(const MeshData& mesh, const std::function<void(double)>& progress = {}) const;
@@ -36,6 +37,7 @@ private:
 	struct Surface;
 	std::unique_ptr<Surface> original_;
 	std::size_t samples_;
+	double diagonal_;
 };
 
 } // namespace wavemesh::tool
