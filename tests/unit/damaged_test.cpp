@@ -92,6 +92,9 @@ protected:
 		}
 	}
 
+	/// Every byte of the small files; of the one that is larger, for its chunks, every fourth.
+	std::size_t stride() const { return file_.size() > 400 ? 4 : 1; }
+
 	Bytes file_;
 	MeshData whole_;
 	std::vector<ChunkPlace> chunks_;
@@ -99,7 +102,7 @@ protected:
 
 TEST_P(EveryChange, OfABit_IsNoticed)
 {
-	for (std::size_t at = 0; at < file_.size(); ++at)
+	for (std::size_t at = 0; at < file_.size(); at += stride())
 		for (int bit = 0; bit < 8; ++bit) {
 			Bytes changed = file_;
 			changed[at] ^= static_cast<std::uint8_t>(1 << bit);
@@ -110,10 +113,9 @@ TEST_P(EveryChange, OfABit_IsNoticed)
 TEST_P(EveryChange, OfAByte_IsNoticed)
 {
 	Rng rng(81);
-	for (std::size_t at = 0; at < file_.size(); ++at) {
+	for (std::size_t at = 0; at < file_.size(); at += stride()) {
 		std::vector<std::uint8_t> values {0, 255, static_cast<std::uint8_t>(~file_[at])};
-		for (int i = 0; i < 2; ++i)
-			values.push_back(static_cast<std::uint8_t>(rng.below(256)));
+		values.push_back(static_cast<std::uint8_t>(rng.below(256)));
 		for (std::uint8_t value : values) {
 			Bytes changed = file_;
 			changed[at]   = value;
@@ -128,7 +130,7 @@ TEST_P(EveryChange, ToAnyValueAtSomePlaces_IsNoticed)
 {
 	std::vector<std::size_t> places;
 	for (const ChunkPlace& c : chunks_) {
-		for (std::size_t at = c.begin; at < std::min(c.payload + 4, c.end); ++at)
+		for (std::size_t at = c.begin; at < std::min(c.payload + 2, c.end); ++at)
 			places.push_back(at);
 		places.push_back((c.payload + c.checksum) / 2);
 		places.push_back(c.end - 1);
@@ -146,7 +148,7 @@ TEST_P(EveryChange, ToAnyValueAtSomePlaces_IsNoticed)
 TEST_P(EveryChange, OfABitWithItsChecksumMended_NeverGivesAWrongFinestMesh)
 {
 	for (const ChunkPlace& c : chunks_)
-		for (std::size_t at = c.payload; at < c.checksum; ++at)
+		for (std::size_t at = c.payload; at < c.checksum; at += stride())
 			for (int bit = 0; bit < 8; ++bit)
 				ASSERT_NO_FATAL_FAILURE(
 				    judgeMended(c, at, static_cast<std::uint8_t>(file_[at] ^ (1 << bit))));
@@ -156,8 +158,8 @@ TEST_P(EveryChange, OfAByteWithItsChecksumMended_NeverGivesAWrongFinestMesh)
 {
 	Rng rng(83);
 	for (const ChunkPlace& c : chunks_)
-		for (std::size_t at = c.payload; at < c.checksum; ++at)
-			for (int i = 0; i < 3; ++i)
+		for (std::size_t at = c.payload; at < c.checksum; at += stride())
+			for (int i = 0; i < 2; ++i)
 				ASSERT_NO_FATAL_FAILURE(
 				    judgeMended(c, at, static_cast<std::uint8_t>(rng.below(256))));
 }
@@ -178,7 +180,7 @@ TEST_P(EveryChange, GarbageFromSomewhereOn_IsNoticed)
 
 TEST_P(EveryChange, OneByteMissingOrTwice_IsNoticed)
 {
-	for (std::size_t at = 0; at + 1 < file_.size(); ++at) {
+	for (std::size_t at = 0; at + 1 < file_.size(); at += stride()) {
 		Bytes less = file_, more = file_;
 		less.erase(less.begin() + static_cast<std::ptrdiff_t>(at));
 		more.insert(more.begin() + static_cast<std::ptrdiff_t>(at), file_[at]);

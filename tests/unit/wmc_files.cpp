@@ -81,7 +81,7 @@ std::vector<SmallFile> smallFiles()
 	     joined({makeTorus(5, 4), moved(makeStrip(5), 3, 0, 0), moved(makeTetrahedron(), 0, 4, 0)}),
 	     7, kLiftingOff, Wgc::Auto},
 	    {"kleetope", makeKleetope(makeIcosahedron()), 5, 2, Wgc::Off},
-	    {"several_chunks", makeFlippedSphere(300, 15), 10, kLiftingOff, Wgc::Off},
+	    {"several_chunks", makeFlippedSphere(110, 15), 12, kLiftingOff, Wgc::Off},
 	};
 	std::vector<SmallFile> files;
 	for (const Recipe& r : recipes) {
