@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file_bytes.h"
 
-#include "shared/plugin_support.h"
+#include <common/mlexception.h>
 
 #include <QFile>
 #include <QFileInfo>
