@@ -15,20 +15,20 @@ namespace wavemesh {
 struct Decoder::State
 {
 	const std::uint8_t* data = nullptr;
-	std::size_t         size = 0;
-	Head                head;
-	StreamInfo          info;
+	std::size_t size         = 0;
+	Head head;
+	StreamInfo info;
 
-	int                       level = -1;
-	CornerTable               table;
+	int level = -1;
+	CornerTable table;
 	std::vector<LatticePoint> positions;
-	Status                    stopped; ///< not ok: no further level can come
+	Status stopped; ///< not ok: no further level can come
 
-	std::size_t        offset = 0; ///< of the next chunk
-	Chunk              chunk;      ///< the one being read
-	RangeDecoder       coder;
+	std::size_t offset = 0; ///< of the next chunk
+	Chunk chunk;            ///< the one being read
+	RangeDecoder coder;
 	ConnectivityModels connectivityModels;
-	DetailModels       detailModels;
+	DetailModels detailModels;
 
 	const LevelRow& row(int l) const { return head.rows[std::size_t(l)]; }
 
@@ -54,20 +54,23 @@ Status Decoder::State::ended(const char* where) const
 {
 	const std::string place = std::string("inside ") + where + " of " + levelName(level + 1);
 	if (chunk.whole)
-		return {StatusCode::Corrupt, "the data end " + place + " although the chunk is whole", chunk.end};
+		return {
+		    StatusCode::Corrupt, "the data end " + place + " although the chunk is whole",
+		    chunk.end};
 	return {
-		StatusCode::Truncated,
-		"the file ends " + place + " (" + std::to_string(size) + " of " + std::to_string(info.bytes) + " bytes)",
-		size};
+	    StatusCode::Truncated,
+	    "the file ends " + place + " (" + std::to_string(size) + " of " +
+	        std::to_string(info.bytes) + " bytes)",
+	    size};
 }
 
 Status Decoder::State::corrupt(const char* what) const
 {
 	return {
-		StatusCode::Corrupt,
-		levelName(level + 1) + " " + what + " (chunk at offset " +
-			std::to_string(std::size_t(chunk.payload - data)) + ")",
-		std::uint64_t(chunk.payload - data)};
+	    StatusCode::Corrupt,
+	    levelName(level + 1) + " " + what + " (chunk at offset " +
+	        std::to_string(std::size_t(chunk.payload - data)) + ")",
+	    std::uint64_t(chunk.payload - data)};
 }
 
 /// Finds the next level chunk.
@@ -76,28 +79,40 @@ Status Decoder::State::openChunk()
 	for (;;) {
 		if (offset == size)
 			return {
-				StatusCode::Truncated,
-				"the file ends before " + levelName(level + 1) + " (" + std::to_string(size) + " of " +
-					std::to_string(info.bytes) + " bytes)",
-				size};
+			    StatusCode::Truncated,
+			    "the file ends before " + levelName(level + 1) + " (" + std::to_string(size) +
+			        " of " + std::to_string(info.bytes) + " bytes)",
+			    size};
 		auto next = readChunk(data, size, offset);
 		if (!next.ok())
 			return next.status();
 		chunk = *next;
 		if (chunk.type == kLevelChunk) {
+			std::uint64_t expected = 0;
+			for (int l = level + 1; l == level + 1 || !row(l - 1).endsChunk; ++l)
+				expected += row(l).bytes;
+			if (chunk.declared != expected)
+				return {
+				    StatusCode::Corrupt,
+				    "the chunk at offset " + std::to_string(offset) +
+				        " is not as long as the head says",
+				    offset};
 			offset = chunk.end;
 			coder  = RangeDecoder(chunk.payload, chunk.size);
 			return {};
 		}
 		if (chunk.type < 'a' || chunk.type > 'z')
-			return {StatusCode::Corrupt, "an unknown chunk at offset " + std::to_string(offset), offset};
+			return {
+			    StatusCode::Corrupt, "an unknown chunk at offset " + std::to_string(offset),
+			    offset};
 		offset = chunk.end;
 	}
 }
 
 Status Decoder::State::readBase()
 {
-	auto base = BaseSyntax<RangeDecoder>(coder, head.lattice.bits).read(row(0).vertices, row(0).faces);
+	auto base =
+	    BaseSyntax<RangeDecoder>(coder, head.lattice.bits).read(row(0).vertices, row(0).faces);
 	if (!base.ok())
 		return base.status().code == StatusCode::Truncated ? ended("the base mesh") : base.status();
 	table     = std::move(base->table);
@@ -109,7 +124,7 @@ Status Decoder::State::readBase()
 Status Decoder::State::readSplit()
 {
 	const LevelRow& target = row(level + 1);
-	Refinement      refinement;
+	Refinement refinement;
 	ConnectivitySyntax<RangeDecoder>(coder, connectivityModels, table, positions).code(refinement);
 	if (coder.exhausted())
 		return ended("the connectivity");
@@ -119,8 +134,8 @@ Status Decoder::State::readSplit()
 	if (child.faceCount() != target.faces)
 		return corrupt("does not have the number of faces that the head declares");
 
-	const Parents             parents = parentsOf(table, refinement);
-	const UpdateWeights       weights = updateWeights(table, refinement, parents, head.lifting);
+	const Parents parents       = parentsOf(table, refinement);
+	const UpdateWeights weights = updateWeights(table, refinement, parents, head.lifting);
 	std::vector<LatticePoint> details(parents.size(), {0, 0, 0});
 	DetailSyntax<RangeDecoder>(coder, detailModels, table, refinement, positions).code(details);
 	Status cut;
@@ -147,7 +162,9 @@ Status Decoder::State::advance()
 	if (Status s = level < 0 ? readBase() : readSplit(); !s.ok())
 		return s;
 	if (row(level).endsChunk && !chunk.whole)
-		return {StatusCode::Truncated, "the file ends inside the checksum of " + levelName(level), size};
+		return {
+		    StatusCode::Truncated, "the file ends inside the checksum of " + levelName(level),
+		    size};
 	return {};
 }
 
@@ -166,11 +183,12 @@ int Decoder::level() const
 	return state_->level;
 }
 
-Result<Decoder> Decoder::open(const std::uint8_t* data, std::size_t size, const DecodeLimits& limits)
+Result<Decoder>
+Decoder::open(const std::uint8_t* data, std::size_t size, const DecodeLimits& limits)
 {
-	auto        state = std::make_unique<State>();
-	std::size_t end   = 0;
-	auto        head  = readHead(data, size, end);
+	auto state      = std::make_unique<State>();
+	std::size_t end = 0;
+	auto head       = readHead(data, size, end);
 	if (!head.ok())
 		return head.status();
 	state->data   = data;
@@ -180,10 +198,10 @@ Result<Decoder> Decoder::open(const std::uint8_t* data, std::size_t size, const 
 	state->offset = end;
 	if (state->info.vertices > limits.maxVertices || state->info.faces > limits.maxFaces)
 		return Status(
-			StatusCode::LimitExceeded,
-			"the file declares " + std::to_string(state->info.vertices) + " vertices and " +
-				std::to_string(state->info.faces) + " faces, more than the limit of " +
-				std::to_string(limits.maxVertices) + " and " + std::to_string(limits.maxFaces));
+		    StatusCode::LimitExceeded,
+		    "the file declares " + std::to_string(state->info.vertices) + " vertices and " +
+		        std::to_string(state->info.faces) + " faces, more than the limit of " +
+		        std::to_string(limits.maxVertices) + " and " + std::to_string(limits.maxFaces));
 	return Decoder(std::move(state));
 }
 
@@ -193,7 +211,8 @@ Status Decoder::advance()
 	Status status;
 	try {
 		status = s.advance();
-		if (status.ok() && s.level == s.info.finestLevel() && digestOf(s.table, s.positions) != s.head.digest)
+		if (status.ok() && s.level == s.info.finestLevel() &&
+		    digestOf(s.table, s.positions) != s.head.digest)
 			status = {StatusCode::ChecksumMismatch, "the finest mesh does not match its digest"};
 	}
 	catch (const std::bad_alloc&) {
@@ -207,7 +226,7 @@ Status Decoder::advance()
 MeshData Decoder::mesh() const
 {
 	const State& s = *state_;
-	MeshData     out;
+	MeshData out;
 	out.positions.reserve(s.positions.size());
 	for (const LatticePoint& p : s.positions)
 		out.positions.push_back(s.head.lattice.position(p));
@@ -220,8 +239,8 @@ MeshData Decoder::mesh() const
 
 Result<StreamInfo> readInfo(const std::uint8_t* data, std::size_t size)
 {
-	std::size_t end  = 0;
-	auto        head = readHead(data, size, end);
+	std::size_t end = 0;
+	auto head       = readHead(data, size, end);
 	if (!head.ok())
 		return head.status();
 	return describe(*head, end);
@@ -230,16 +249,19 @@ Result<StreamInfo> readInfo(const std::uint8_t* data, std::size_t size)
 Result<DecodedMesh> decode(const std::uint8_t* data, std::size_t size, const DecodeOptions& options)
 {
 	auto decoder = Decoder::open(
-		data, static_cast<std::size_t>(std::min<std::uint64_t>(size, options.maxBytes)), options.limits);
+	    data, static_cast<std::size_t>(std::min<std::uint64_t>(size, options.maxBytes)),
+	    options.limits);
 	if (!decoder.ok())
 		return decoder.status();
-	const StreamInfo& info   = decoder->info();
-	const int         finest = info.finestLevel();
-	const int         target = options.level < 0 ? finest : std::min(options.level, finest);
-	Status            status;
+	const StreamInfo& info = decoder->info();
+	const int finest       = info.finestLevel();
+	const int target       = options.level < 0 ? finest : std::min(options.level, finest);
+	Status status;
 	while (decoder->level() < target && status.ok()) {
 		const double done =
-			decoder->level() < 0 ? 0 : double(info.levels[std::size_t(decoder->level())].vertices) / info.vertices;
+		    decoder->level() < 0
+		        ? 0
+		        : double(info.levels[std::size_t(decoder->level())].vertices) / info.vertices;
 		if (options.progress && !options.progress(done))
 			return Status(StatusCode::Cancelled, "cancelled");
 		status = decoder->advance();

@@ -34,8 +34,14 @@ Status checkOptions(const EncodeOptions& o)
 class Stage
 {
 public:
-	Stage(const Progress& progress, double from, double to) : progress_(progress), from_(from), to_(to) {}
-	bool operator()(double fraction) const { return !progress_ || progress_(from_ + fraction * (to_ - from_)); }
+	Stage(const Progress& progress, double from, double to) :
+	        progress_(progress), from_(from), to_(to)
+	{
+	}
+	bool operator()(double fraction) const
+	{
+		return !progress_ || progress_(from_ + fraction * (to_ - from_));
+	}
 	Stage part(double from, double to) const
 	{
 		return {progress_, from_ + from * (to_ - from_), from_ + to * (to_ - from_)};
@@ -43,7 +49,7 @@ public:
 
 private:
 	const Progress& progress_;
-	double          from_, to_;
+	double from_, to_;
 };
 
 Status cancelled()
@@ -53,22 +59,24 @@ Status cancelled()
 
 struct QuantisedMesh
 {
-	CornerTable               table;
-	Lattice                   lattice;
+	CornerTable table;
+	Lattice lattice;
 	std::vector<LatticePoint> positions;
 };
 
 /// Details of one level and what their synthesis needs.
 struct AnalysedLevel
 {
-	Parents                   parents;
-	UpdateWeights             weights;
+	Parents parents;
+	UpdateWeights weights;
 	std::vector<LatticePoint> details;
 };
 
 std::uint64_t saturatingAdd(std::uint64_t a, std::uint64_t b)
 {
-	return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max() : a + b;
+	return a > std::numeric_limits<std::uint64_t>::max() - b
+	           ? std::numeric_limits<std::uint64_t>::max()
+	           : a + b;
 }
 
 /// Writes the levels into chunks and their rows into the head.
@@ -78,7 +86,7 @@ public:
 	LevelWriter(Head& head, std::vector<std::uint8_t>& chunks) : head_(head), chunks_(chunks) {}
 
 	RangeEncoder& coder() { return coder_; }
-	void          connectivityEnds() { connectivityEnd_ = coder_.mark(); }
+	void connectivityEnds() { connectivityEnd_ = coder_.mark(); }
 
 	void endLevel(const LevelRow& row, bool last)
 	{
@@ -91,7 +99,7 @@ public:
 private:
 	struct Level
 	{
-		LevelRow           row;
+		LevelRow row;
 		RangeEncoder::Mark connectivityEnd, end;
 	};
 
@@ -113,32 +121,30 @@ private:
 		connectivityEnd_ = {};
 	}
 
-	Head&                      head_;
+	Head& head_;
 	std::vector<std::uint8_t>& chunks_;
-	RangeEncoder               coder_;
-	std::vector<Level>         levels_; ///< of the chunk being written
-	RangeEncoder::Mark         connectivityEnd_;
+	RangeEncoder coder_;
+	std::vector<Level> levels_; ///< of the chunk being written
+	RangeEncoder::Mark connectivityEnd_;
 };
 
-Result<EncodedMesh> encodeOnce(
-	const QuantisedMesh& mesh,
-	const EncodeOptions& options,
-	bool                 wgc,
-	const Stage&         stage)
+Result<EncodedMesh>
+encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, const Stage& stage)
 {
 	// Coarsen, from the finest level down.
 	const GeometricalCriterion criterion {wgc, options.wgcSharpness, options.wgcDeviation};
-	bool                       running = true;
-	const Stage                coarsening = stage.part(0, 0.5);
-	const auto coarsenings = coarsenAll(mesh.table, mesh.positions, criterion, [&](double fraction) {
-		running = coarsening(fraction);
-		return running;
-	});
+	bool running           = true;
+	const Stage coarsening = stage.part(0, 0.5);
+	const auto coarsenings =
+	    coarsenAll(mesh.table, mesh.positions, criterion, [&](double fraction) {
+		    running = coarsening(fraction);
+		    return running;
+	    });
 	if (!running)
 		return cancelled();
 
 	// Number everything as the decoder will.
-	BaseMesh           base;
+	BaseMesh base;
 	std::vector<Index> source;
 	base.table = coarsenings.empty() ? mesh.table : coarsenings.back().coarse;
 	base.positions.resize(base.table.vertexCount);
@@ -159,13 +165,14 @@ Result<EncodedMesh> encodeOnce(
 	head.digest  = digestOf(levels.finest, positions);
 
 	// Analyse, from the finest level down.
-	const std::size_t          splits = levels.levels.size();
+	const std::size_t splits = levels.levels.size();
 	std::vector<AnalysedLevel> analysed(splits);
-	std::vector<std::uint64_t> squaredError(splits + 1, 0); // by level, of the details that it lacks
+	std::vector<std::uint64_t> squaredError(
+	    splits + 1, 0); // by level, of the details that it lacks
 	for (std::size_t i = splits; i-- > 0;) {
 		const ReplayedLevel& level = levels.levels[i];
-		AnalysedLevel&       a     = analysed[i];
-		a.parents = parentsOf(level.parent, level.refinement);
+		AnalysedLevel& a           = analysed[i];
+		a.parents                  = parentsOf(level.parent, level.refinement);
 		a.weights = updateWeights(level.parent, level.refinement, a.parents, options.lifting);
 		a.details = analyse(a.parents, a.weights, positions);
 		positions.resize(level.parent.vertexCount);
@@ -178,10 +185,11 @@ Result<EncodedMesh> encodeOnce(
 
 	// Code, from the base up; each level is synthesised on the way, as the decoder does.
 	std::vector<std::uint8_t> chunks;
-	LevelWriter               writer(head, chunks);
-	ConnectivityModels        connectivityModels;
-	DetailModels              detailModels;
-	const auto row = [&](LevelKind kind, std::size_t level, std::size_t vertices, std::size_t faces) {
+	LevelWriter writer(head, chunks);
+	ConnectivityModels connectivityModels;
+	DetailModels detailModels;
+	const auto row = [&](LevelKind kind, std::size_t level, std::size_t vertices,
+	                     std::size_t faces) {
 		LevelRow r;
 		r.kind      = kind;
 		r.vertices  = std::uint32_t(vertices);
@@ -192,20 +200,23 @@ Result<EncodedMesh> encodeOnce(
 	{
 		BaseMesh b {splits == 0 ? levels.finest : levels.levels[0].parent, positions};
 		BaseSyntax<RangeEncoder>(writer.coder(), mesh.lattice.bits).write(b, source);
-		writer.endLevel(row(LevelKind::Base, 0, b.positions.size(), b.table.faceCount()), splits == 0);
+		writer.endLevel(
+		    row(LevelKind::Base, 0, b.positions.size(), b.table.faceCount()), splits == 0);
 	}
 	for (std::size_t i = 0; i < splits; ++i) {
 		ReplayedLevel& level = levels.levels[i];
 		AnalysedLevel& a     = analysed[i];
-		ConnectivitySyntax<RangeEncoder>(writer.coder(), connectivityModels, level.parent, positions)
-			.code(level.refinement);
+		ConnectivitySyntax<RangeEncoder>(
+		    writer.coder(), connectivityModels, level.parent, positions)
+		    .code(level.refinement);
 		writer.connectivityEnds();
-		DetailSyntax<RangeEncoder>(writer.coder(), detailModels, level.parent, level.refinement, positions)
-			.code(a.details);
+		DetailSyntax<RangeEncoder>(
+		    writer.coder(), detailModels, level.parent, level.refinement, positions)
+		    .code(a.details);
 		synthesise(a.parents, a.weights, a.details, positions);
 		const CornerTable& child = i + 1 < splits ? levels.levels[i + 1].parent : levels.finest;
 		writer.endLevel(
-			row(LevelKind::Split, i + 1, positions.size(), child.faceCount()), i + 1 == splits);
+		    row(LevelKind::Split, i + 1, positions.size(), child.faceCount()), i + 1 == splits);
 		level = {};
 		a     = {};
 		if (!stage(0.7 + 0.3 * double(positions.size()) / double(levels.source.size())))
@@ -226,8 +237,9 @@ Result<EncodedMesh> encodeMesh(const MeshData& mesh, const EncodeOptions& option
 	if (mesh.triangles.empty())
 		return Status(StatusCode::Unsupported, "the mesh has no faces");
 	if (mesh.positions.size() > std::numeric_limits<std::int32_t>::max() / 3 ||
-		mesh.triangles.size() > std::numeric_limits<std::int32_t>::max() / 3)
-		return Status(StatusCode::LimitExceeded, "the mesh has more than 715 million vertices or faces");
+	    mesh.triangles.size() > std::numeric_limits<std::int32_t>::max() / 3)
+		return Status(
+		    StatusCode::LimitExceeded, "the mesh has more than 715 million vertices or faces");
 	const auto lattice = makeLattice(mesh.positions, options.bits, options.step);
 	if (!lattice.ok())
 		return lattice.status();

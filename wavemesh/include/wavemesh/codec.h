@@ -67,34 +67,35 @@ enum class LevelKind : std::uint8_t {
 /// One row of the level table in the file's head.
 struct LevelInfo
 {
-	LevelKind     kind     = LevelKind::Base;
+	LevelKind kind         = LevelKind::Base;
 	std::uint32_t vertices = 0;
 	std::uint32_t faces    = 0;
-	std::uint64_t bytes    = 0; ///< what this level adds to the file; the levels' sum is the file size
-	std::uint64_t prefix   = 0; ///< length of the shortest prefix of the file that holds this level whole
-	int           bits     = 0; ///< precision of the positions, bits per coordinate
-	/// Model units; an estimate from the details (docs/wmc_format.md), not a surface distance. 0 for
-	/// the finest level.
+	std::uint64_t bytes = 0; ///< what this level adds to the file; the levels' sum is the file size
+	std::uint64_t prefix =
+	    0;        ///< length of the shortest prefix of the file that holds this level whole
+	int bits = 0; ///< precision of the positions, bits per coordinate
+	/// Model units; an estimate from the details (docs/wmc_format.md), not a surface distance. 0
+	/// for the finest level.
 	double error = 0;
 };
 
 /// What the head of a file tells.
 struct StreamInfo
 {
-	int                    versionMajor = 0;
-	int                    versionMinor = 0;
-	Mode                   mode         = Mode::Classic;
-	int                    lifting      = kLiftingOff;
-	bool                   wgc          = false; ///< was the coarsening steered by geometry?
-	int                    bits         = 0;     ///< bits per coordinate over the largest extent
-	std::array<double, 3>  origin {};            ///< model units; position of lattice point (0,0,0)
-	double                 step     = 0;         ///< model units per lattice step
-	std::uint32_t          vertices = 0;         ///< of the original
-	std::uint32_t          faces    = 0;
-	std::uint64_t          bytes    = 0; ///< of the whole file
+	int versionMajor = 0;
+	int versionMinor = 0;
+	Mode mode        = Mode::Classic;
+	int lifting      = kLiftingOff;
+	bool wgc         = false;        ///< was the coarsening steered by geometry?
+	int bits         = 0;            ///< bits per coordinate over the largest extent
+	std::array<double, 3> origin {}; ///< model units; position of lattice point (0,0,0)
+	double step            = 0;      ///< model units per lattice step
+	std::uint32_t vertices = 0;      ///< of the original
+	std::uint32_t faces    = 0;
+	std::uint64_t bytes    = 0; ///< of the whole file
 	/// Bytes of the file spent on connectivity and geometry; the rest is headers and checksums.
-	std::uint64_t          connectivityBytes = 0;
-	std::uint64_t          geometryBytes     = 0;
+	std::uint64_t connectivityBytes = 0;
+	std::uint64_t geometryBytes     = 0;
 	std::vector<LevelInfo> levels; ///< coarsest first
 
 	int finestLevel() const { return static_cast<int>(levels.size()) - 1; }
@@ -103,7 +104,7 @@ struct StreamInfo
 struct EncodedMesh
 {
 	std::vector<std::uint8_t> bytes; ///< the file
-	StreamInfo                info;
+	StreamInfo info;
 };
 
 /// Encodes `mesh`.
@@ -128,11 +129,11 @@ constexpr int kFinestLevel = -1;
 struct DecodeOptions
 {
 	/// Level to stop at, 0 coarsest; kFinestLevel, or anything past the finest: the finest.
-	int           level    = kFinestLevel;
+	int level = kFinestLevel;
 	/// Decode as if the data ended after this many bytes.
 	std::uint64_t maxBytes = ~std::uint64_t {0};
-	DecodeLimits  limits;
-	Progress      progress;
+	DecodeLimits limits;
+	Progress progress;
 };
 
 /// Reads the head only: the first few hundred bytes are enough.
@@ -141,8 +142,9 @@ Result<StreamInfo> readInfo(const std::uint8_t* data, std::size_t size);
 
 struct DecodedMesh
 {
-	MeshData   mesh;
-	int        level = 0; ///< that `mesh` is; a level cut in the middle counts if its connectivity is whole
+	MeshData mesh;
+	int level =
+	    0; ///< that `mesh` is; a level cut in the middle counts if its connectivity is whole
 	StreamInfo info;
 };
 
@@ -152,10 +154,8 @@ struct DecodedMesh
 ///         for but after the base mesh. Errors without a mesh: NotWmc, VersionTooNew, Truncated
 ///         (not even the base arrived), Corrupt, ChecksumMismatch, LimitExceeded, Cancelled.
 /// Vertices of a level keep their index in every finer level.
-Result<DecodedMesh> decode(
-	const std::uint8_t*  data,
-	std::size_t          size,
-	const DecodeOptions& options = {});
+Result<DecodedMesh>
+decode(const std::uint8_t* data, std::size_t size, const DecodeOptions& options = {});
 
 /// Decodes level by level; what decode() is made of, for browsing and for streams.
 ///
@@ -168,10 +168,8 @@ class Decoder
 {
 public:
 	/// Reads the head. `data` must stay alive and unchanged as long as the decoder.
-	static Result<Decoder> open(
-		const std::uint8_t* data,
-		std::size_t         size,
-		const DecodeLimits& limits = {});
+	static Result<Decoder>
+	open(const std::uint8_t* data, std::size_t size, const DecodeLimits& limits = {});
 
 	Decoder(Decoder&&) noexcept;
 	Decoder& operator=(Decoder&&) noexcept;

@@ -12,7 +12,7 @@ namespace wavemesh {
 /// A triangle mesh as arrays. Faces are oriented counter-clockwise seen from outside.
 struct MeshData
 {
-	std::vector<std::array<double, 3>>        positions; ///< #V by 3, model units
+	std::vector<std::array<double, 3>> positions;        ///< #V by 3, model units
 	std::vector<std::array<std::uint32_t, 3>> triangles; ///< #F by 3, rows of `positions`
 };
 

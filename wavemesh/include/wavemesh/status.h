@@ -15,17 +15,18 @@ namespace wavemesh {
 /// 30.. a resource, 40 the user, 90 ourselves. The numbers are stable.
 enum class StatusCode : std::uint8_t {
 	Ok = 0,
-	InvalidArgument = 1, ///< an option out of range, or a mesh that is not a mesh (index out of range, NaN)
-	Unsupported = 2,     ///< well formed, but outside what this version handles
-	NotWmc = 10,         ///< the data does not begin like a .wmc file
-	VersionTooNew = 11,  ///< written by a newer major version
-	Truncated = 20,      ///< the data ends early; what did arrive was decoded
-	Corrupt = 21,        ///< the data contradicts itself
+	InvalidArgument =
+	    1, ///< an option out of range, or a mesh that is not a mesh (index out of range, NaN)
+	Unsupported      = 2,  ///< well formed, but outside what this version handles
+	NotWmc           = 10, ///< the data does not begin like a .wmc file
+	VersionTooNew    = 11, ///< written by a newer major version
+	Truncated        = 20, ///< the data ends early; what did arrive was decoded
+	Corrupt          = 21, ///< the data contradicts itself
 	ChecksumMismatch = 22, ///< a chunk or the finest mesh does not match its checksum
-	LimitExceeded = 30,  ///< more vertices, faces or memory than DecodeLimits allows
-	OutOfMemory = 31,
-	Cancelled = 40, ///< the progress callback asked to stop
-	Internal = 90,  ///< a mistake of ours
+	LimitExceeded    = 30, ///< more vertices, faces or memory than DecodeLimits allows
+	OutOfMemory      = 31,
+	Cancelled        = 40, ///< the progress callback asked to stop
+	Internal         = 90, ///< a mistake of ours
 };
 
 /// Outcome of an operation. `what` is one line in a user's words; it names chunk, level and offset
@@ -34,13 +35,13 @@ struct [[nodiscard]] Status
 {
 	static constexpr std::uint64_t kNoOffset = ~std::uint64_t {0};
 
-	StatusCode    code       = StatusCode::Ok;
+	StatusCode code          = StatusCode::Ok;
 	std::uint64_t byteOffset = kNoOffset; ///< where in the file, in bytes, or kNoOffset
-	std::string   what;
+	std::string what;
 
 	Status() = default;
 	Status(StatusCode c, std::string message, std::uint64_t offset = kNoOffset) :
-			code(c), byteOffset(offset), what(std::move(message))
+	        code(c), byteOffset(offset), what(std::move(message))
 	{
 	}
 
@@ -49,7 +50,7 @@ struct [[nodiscard]] Status
 
 /// A value, or the reason why there is none. A `Truncated` result may carry both: the mesh that the
 /// bytes still describe, and the warning.
-template<class T>
+template <class T>
 class [[nodiscard]] Result
 {
 public:
@@ -64,16 +65,16 @@ public:
 	const Status& status() const { return status_; }
 
 	/// @pre hasValue()
-	T&       value() { return *value_; }
+	T& value() { return *value_; }
 	const T& value() const { return *value_; }
-	T*       operator->() { return &*value_; }
+	T* operator->() { return &*value_; }
 	const T* operator->() const { return &*value_; }
-	T&       operator*() { return *value_; }
+	T& operator*() { return *value_; }
 	const T& operator*() const { return *value_; }
 
 private:
 	std::optional<T> value_;
-	Status           status_;
+	Status status_;
 };
 
 } // namespace wavemesh

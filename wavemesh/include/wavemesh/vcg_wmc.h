@@ -15,7 +15,7 @@
 namespace wavemesh {
 
 /// Copies the vertices and faces of `m` that are not deleted, in their order. `m` is not modified.
-template<class MeshType>
+template <class MeshType>
 MeshData toMeshData(const MeshType& m)
 {
 	MeshData out;
@@ -42,14 +42,14 @@ MeshData toMeshData(const MeshType& m)
 
 /// Replaces the contents of `m` by `data`. Normals and bounding box are updated where `m` has them;
 /// adjacency is left to the caller.
-template<class MeshType>
+template <class MeshType>
 void fromMeshData(const MeshData& data, MeshType& m)
 {
 	using Scalar = typename MeshType::ScalarType;
 	m.Clear();
 	vcg::tri::Allocator<MeshType>::AddVertices(m, data.positions.size());
 	for (std::size_t i = 0; i < data.positions.size(); ++i) {
-		const auto& p  = data.positions[i];
+		const auto& p = data.positions[i];
 		m.vert[i].P() = typename MeshType::CoordType(Scalar(p[0]), Scalar(p[1]), Scalar(p[2]));
 	}
 	vcg::tri::Allocator<MeshType>::AddFaces(m, data.triangles.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Little-endian bytes, variable-length integers and checksums. Writer and reader answer to the same
-/// calls, so that a header is described once.
+/// Little-endian bytes, variable-length integers and checksums. Writer and reader answer to the
+/// same calls, so that a header is described once.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ public:
 	static constexpr bool kReading = false;
 	std::vector<std::uint8_t> bytes;
 
-	template<class Int>
+	template <class Int>
 	void fixed(const Int& x)
 	{
 		for (std::size_t i = 0; i < sizeof(Int); ++i)
 			bytes.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(x) >> (8 * i)));
 	}
 	/// LEB128: seven bits a byte, the lowest first, the top bit set on all but the last.
-	template<class Int>
+	template <class Int>
 	void varint(const Int& value)
 	{
 		std::uint64_t x = value;
@@ -36,7 +36,7 @@ public:
 	}
 	void real32(const double& x)
 	{
-		const float   f = static_cast<float>(x);
+		const float f = static_cast<float>(x);
 		std::uint32_t u;
 		std::memcpy(&u, &f, sizeof u);
 		fixed(u);
@@ -59,7 +59,7 @@ public:
 	ByteReader(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
 
 	std::size_t position() const { return at_; }
-	bool        failed() const { return failed_; }
+	bool failed() const { return failed_; }
 
 	std::uint8_t byte()
 	{
@@ -69,7 +69,7 @@ public:
 		}
 		return data_[at_++];
 	}
-	template<class Int>
+	template <class Int>
 	void fixed(Int& x)
 	{
 		std::uint64_t u = 0;
@@ -78,7 +78,7 @@ public:
 		x = static_cast<Int>(u);
 	}
 	/// Fails for numbers that do not fit into Int.
-	template<class Int>
+	template <class Int>
 	void varint(Int& x)
 	{
 		std::uint64_t u = 0;
@@ -112,9 +112,9 @@ public:
 
 private:
 	const std::uint8_t* data_;
-	std::size_t         size_;
-	std::size_t         at_     = 0;
-	bool                failed_ = false;
+	std::size_t size_;
+	std::size_t at_ = 0;
+	bool failed_    = false;
 };
 
 } // namespace wavemesh

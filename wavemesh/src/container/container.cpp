@@ -9,10 +9,10 @@
 namespace wavemesh {
 namespace {
 
-constexpr std::uint8_t  kMagic[8]       = {0x8b, 'W', 'M', 'C', '\r', '\n', 0x1a, '\n'};
-constexpr std::size_t   kChecksumSize   = 4;
-constexpr std::uint32_t kMaxLevels      = 4096;
-constexpr std::uint32_t kMaxElements    = 0x7fffffff / 3; ///< corners are 32-bit indices
+constexpr std::uint8_t kMagic[8]     = {0x8b, 'W', 'M', 'C', '\r', '\n', 0x1a, '\n'};
+constexpr std::size_t kChecksumSize  = 4;
+constexpr std::uint32_t kMaxLevels   = 4096;
+constexpr std::uint32_t kMaxElements = 0x7fffffff / 3; ///< corners are 32-bit indices
 
 Status corruptHead(const char* why)
 {
@@ -33,23 +33,23 @@ std::size_t chunkSize(std::uint64_t payload)
 }
 
 /// Fixed fields of the head, in file order.
-template<class Io>
+template <class Io>
 bool visitFields(Io& io, Head& h)
 {
 	io.fixed(h.major);
 	io.fixed(h.minor);
 	std::uint8_t flags = 0;
-	bool         wide  = false;
-	double       extent = 0;
-	const double steps  = double((std::uint32_t(1) << h.lattice.bits) - 1);
+	bool wide          = false;
+	double extent      = 0;
+	const double steps = double((std::uint32_t(1) << h.lattice.bits) - 1);
 	if constexpr (!Io::kReading) {
 		// 32-bit floats where they say the same.
 		extent = double(float(h.lattice.step * steps));
 		wide   = extent / steps != h.lattice.step;
 		for (const double x : h.lattice.origin)
 			wide = wide || double(float(x)) != x;
-		flags = std::uint8_t(
-			int(h.mode) | (h.wgc ? 8 : 0) | (wide ? 16 : 0) | ((h.lifting + 1) << 5));
+		flags =
+		    std::uint8_t(int(h.mode) | (h.wgc ? 8 : 0) | (wide ? 16 : 0) | ((h.lifting + 1) << 5));
 	}
 	io.fixed(flags);
 	std::uint8_t bits = std::uint8_t(h.lattice.bits);
@@ -77,13 +77,13 @@ bool visitFields(Io& io, Head& h)
 }
 
 /// The level table, finest first: each row next to the one it was coarsened to.
-template<class Coder>
+template <class Coder>
 void codeRows(Coder& coder, std::vector<LevelRow>& rows)
 {
 	AdaptiveUnsigned<32> vertices, faces, bytes, connectivity;
-	AdaptiveSigned<32>   removed;
-	AdaptiveSigned<9>    error;
-	AdaptiveBit          endsChunk;
+	AdaptiveSigned<32> removed;
+	AdaptiveSigned<9> error;
+	AdaptiveBit endsChunk;
 	for (std::size_t i = rows.size(); i-- > 0 && !coder.exhausted();) {
 		LevelRow& row = rows[i];
 		if (i + 1 == rows.size()) {
@@ -92,11 +92,14 @@ void codeRows(Coder& coder, std::vector<LevelRow>& rows)
 		}
 		else {
 			const LevelRow& finer = rows[i + 1];
-			row.vertices = finer.vertices - std::uint32_t(vertices.code(coder, finer.vertices - row.vertices));
+			row.vertices =
+			    finer.vertices - std::uint32_t(vertices.code(coder, finer.vertices - row.vertices));
 			// A vertex less is two faces less, away from the boundary.
-			const std::int64_t regular = std::int64_t(finer.faces) - 2 * std::int64_t(finer.vertices - row.vertices);
-			row.faces                  = std::uint32_t(regular + removed.code(coder, row.faces - regular));
-			row.errorCode = std::uint8_t(finer.errorCode + error.code(coder, row.errorCode - finer.errorCode));
+			const std::int64_t regular =
+			    std::int64_t(finer.faces) - 2 * std::int64_t(finer.vertices - row.vertices);
+			row.faces = std::uint32_t(regular + removed.code(coder, row.faces - regular));
+			row.errorCode =
+			    std::uint8_t(finer.errorCode + error.code(coder, row.errorCode - finer.errorCode));
 		}
 		row.bytes             = std::uint32_t(bytes.code(coder, row.bytes));
 		row.connectivityBytes = std::uint32_t(connectivity.code(coder, row.connectivityBytes));
@@ -112,17 +115,19 @@ Status checkRows(const std::vector<LevelRow>& rows)
 		return corruptHead("the last level is open");
 	for (std::size_t i = 0; i < rows.size(); ++i) {
 		const LevelRow& row = rows[i];
-		if (row.vertices > kMaxElements || row.faces > kMaxElements || row.connectivityBytes > row.bytes)
+		if (row.vertices > kMaxElements || row.faces > kMaxElements ||
+		    row.connectivityBytes > row.bytes)
 			return corruptHead("impossible counts in the level table");
 		if (i == 0) {
 			if (std::uint64_t(row.vertices) > 3 * std::uint64_t(row.faces))
 				return corruptHead("impossible base mesh");
 			continue;
 		}
-		const LevelRow& coarser = rows[i - 1];
+		const LevelRow& coarser           = rows[i - 1];
 		const std::uint64_t edgesAndFaces = 4 * std::uint64_t(coarser.faces);
 		if (row.vertices < coarser.vertices || row.faces < coarser.faces ||
-			row.faces > 4 * std::uint64_t(coarser.faces) || row.vertices - coarser.vertices > edgesAndFaces)
+		    row.faces > 4 * std::uint64_t(coarser.faces) ||
+		    row.vertices - coarser.vertices > edgesAndFaces)
 			return corruptHead("a level grows more than a split can");
 	}
 	return {};
@@ -135,8 +140,9 @@ std::uint8_t errorCode(std::uint64_t sum, std::uint64_t count)
 	if (sum == 0 || count == 0)
 		return 0;
 	// Clamped where the scaling would overflow; such sums are beyond any real mesh.
-	const std::uint64_t mean   = sum > (~std::uint64_t {0} >> 8) ? ~std::uint64_t {0} / count : (sum << 8) / count;
-	const int           length = bitLength(mean);
+	const std::uint64_t mean =
+	    sum > (~std::uint64_t {0} >> 8) ? ~std::uint64_t {0} / count : (sum << 8) / count;
+	const int length = bitLength(mean);
 	if (length <= 3)
 		return std::uint8_t(mean == 0 ? 1 : mean);
 	const int exponent = length - 3; // mean = 1mmm (binary) << (length - 4)
@@ -164,9 +170,7 @@ std::uint32_t digestOf(const CornerTable& table, const std::vector<LatticePoint>
 }
 
 void writeChunk(
-	std::uint8_t                     type,
-	const std::vector<std::uint8_t>& payload,
-	std::vector<std::uint8_t>&       file)
+    std::uint8_t type, const std::vector<std::uint8_t>& payload, std::vector<std::uint8_t>& file)
 {
 	ByteWriter out;
 	out.fixed(type);
@@ -178,18 +182,20 @@ void writeChunk(
 
 Result<Chunk> readChunk(const std::uint8_t* data, std::size_t size, std::size_t offset)
 {
-	Chunk         chunk;
-	ByteReader    in(data + offset, size - offset);
+	Chunk chunk;
+	ByteReader in(data + offset, size - offset);
 	std::uint64_t length = 0;
 	chunk.type           = in.byte();
 	in.varint(length);
 	if (in.failed()) {
 		if (in.position() == size - offset)
-			return Status(StatusCode::Truncated, "the file ends at offset " + std::to_string(size), size);
+			return Status(
+			    StatusCode::Truncated, "the file ends at offset " + std::to_string(size), size);
 		return Status(StatusCode::Corrupt, "a chunk has an impossible length", offset);
 	}
 	const std::size_t begin = offset + in.position(), rest = size - begin;
-	chunk.payload = data + begin;
+	chunk.payload  = data + begin;
+	chunk.declared = length;
 	if (length + kChecksumSize > rest || length > rest) {
 		chunk.size = std::size_t(std::min<std::uint64_t>(length, rest));
 		chunk.end  = size;
@@ -198,22 +204,23 @@ Result<Chunk> readChunk(const std::uint8_t* data, std::size_t size, std::size_t 
 	chunk.size  = std::size_t(length);
 	chunk.whole = true;
 	chunk.end   = begin + chunk.size + kChecksumSize;
-	ByteReader    tail(data + begin + chunk.size, kChecksumSize);
+	ByteReader tail(data + begin + chunk.size, kChecksumSize);
 	std::uint32_t stored = 0;
 	tail.fixed(stored);
 	if (stored != checksum(data + offset, begin + chunk.size - offset))
 		return Status(
-			StatusCode::ChecksumMismatch,
-			std::string("chunk '") + (chunk.type >= 32 && chunk.type < 127 ? char(chunk.type) : '?') +
-				"' at offset " + std::to_string(offset) + " does not match its checksum",
-			offset);
+		    StatusCode::ChecksumMismatch,
+		    std::string("chunk '") +
+		        (chunk.type >= 32 && chunk.type < 127 ? char(chunk.type) : '?') + "' at offset " +
+		        std::to_string(offset) + " does not match its checksum",
+		    offset);
 	return chunk;
 }
 
 void writeHead(const Head& head, std::vector<std::uint8_t>& file)
 {
 	file.insert(file.end(), std::begin(kMagic), std::end(kMagic));
-	Head       copy = head;
+	Head copy = head;
 	ByteWriter out;
 	visitFields(out, copy);
 	out.varint(copy.rows.size());
@@ -231,7 +238,9 @@ Result<Head> readHead(const std::uint8_t* data, std::size_t size, std::size_t& e
 		return Status(StatusCode::NotWmc, "the file is empty");
 	if (std::memcmp(data, kMagic, known) != 0) {
 		if (size >= 4 && std::memcmp(data + 1, kMagic + 1, 3) == 0)
-			return Status(StatusCode::Corrupt, "the first bytes are damaged, as by a transfer in text mode", 0);
+			return Status(
+			    StatusCode::Corrupt, "the first bytes are damaged, as by a transfer in text mode",
+			    0);
 		return Status(StatusCode::NotWmc, "this is not a .wmc file");
 	}
 	if (size < sizeof kMagic)
@@ -242,23 +251,21 @@ Result<Head> readHead(const std::uint8_t* data, std::size_t size, std::size_t& e
 		return chunk.status();
 	if (chunk->type != kHeadChunk)
 		return corruptHead("it does not come first");
-	if (chunk->size > 0 && chunk->payload[0] > kVersionMajor)
+	// 0.x promises nothing between its minor versions.
+	if (chunk->size >= 2 &&
+	    (chunk->payload[0] != kVersionMajor || chunk->payload[1] != kVersionMinor))
 		return Status(
-			StatusCode::VersionTooNew,
-			"the file was written by a newer version (" + std::to_string(int(chunk->payload[0])) +
-				".x); this one reads 0.x");
+		    StatusCode::VersionTooNew,
+		    "the file has format version " + std::to_string(int(chunk->payload[0])) + "." +
+		        std::to_string(int(chunk->payload[1])) + "; this program reads " +
+		        std::to_string(int(kVersionMajor)) + "." + std::to_string(int(kVersionMinor)));
 	if (!chunk->whole)
 		return Status(StatusCode::Truncated, "the file ends inside its head", size);
 
-	Head       head;
+	Head head;
 	ByteReader in(chunk->payload, chunk->size);
 	if (!visitFields(in, head) || in.failed())
 		return corruptHead("impossible fields");
-	if (head.minor != kVersionMinor) // 0.x makes no promise yet
-		return Status(
-			StatusCode::VersionTooNew,
-			"the file has format version " + std::to_string(int(head.major)) + "." +
-				std::to_string(int(head.minor)) + "; this version reads 0." + std::to_string(int(kVersionMinor)));
 	bool finite = std::isfinite(head.lattice.step) && head.lattice.step > 0;
 	for (const double x : head.lattice.origin)
 		finite = finite && std::isfinite(x);

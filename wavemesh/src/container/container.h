@@ -20,28 +20,29 @@ constexpr std::uint8_t kLevelChunk = 'L';
 /// A level within the level chunks. A chunk holds one or more levels.
 struct LevelRow
 {
-	LevelKind     kind              = LevelKind::Base;
+	LevelKind kind                  = LevelKind::Base;
 	std::uint32_t vertices          = 0;
 	std::uint32_t faces             = 0;
 	std::uint32_t bytes             = 0; ///< of the chunk's payload
 	std::uint32_t connectivityBytes = 0; ///< of these
-	std::uint8_t  errorCode         = 0; ///< see errorFromCode()
-	bool          endsChunk         = false;
+	std::uint8_t errorCode          = 0; ///< see errorFromCode()
+	bool endsChunk                  = false;
 };
 
 struct Head
 {
-	std::uint8_t          major   = kVersionMajor;
-	std::uint8_t          minor   = kVersionMinor;
-	Mode                  mode    = Mode::Classic;
-	int                   lifting = kLiftingOff;
-	bool                  wgc     = false;
-	Lattice               lattice;
-	std::uint32_t         digest = 0; ///< digestOf() the finest level
-	std::vector<LevelRow> rows;       ///< coarsest first
+	std::uint8_t major = kVersionMajor;
+	std::uint8_t minor = kVersionMinor;
+	Mode mode          = Mode::Classic;
+	int lifting        = kLiftingOff;
+	bool wgc           = false;
+	Lattice lattice;
+	std::uint32_t digest = 0;   ///< digestOf() the finest level
+	std::vector<LevelRow> rows; ///< coarsest first
 };
 
-/// The mean squared error `sum / count` as 5 bits of exponent and 3 of mantissa, in 1/256 square steps.
+/// The mean squared error `sum / count` as 5 bits of exponent and 3 of mantissa, in 1/256 square
+/// steps.
 std::uint8_t errorCode(std::uint64_t sum, std::uint64_t count);
 /// Root of what errorCode() stored, in steps.
 double errorFromCode(std::uint8_t code);
@@ -56,17 +57,16 @@ Result<Head> readHead(const std::uint8_t* data, std::size_t size, std::size_t& e
 
 /// Appends a chunk: type, length, payload, checksum.
 void writeChunk(
-	std::uint8_t                     type,
-	const std::vector<std::uint8_t>& payload,
-	std::vector<std::uint8_t>&       file);
+    std::uint8_t type, const std::vector<std::uint8_t>& payload, std::vector<std::uint8_t>& file);
 
 struct Chunk
 {
-	std::uint8_t        type    = 0;
+	std::uint8_t type           = 0;
 	const std::uint8_t* payload = nullptr;
-	std::size_t         size    = 0;    ///< bytes of the payload that are there
-	bool                whole   = false; ///< false: the data end inside, nothing was checked
-	std::size_t         end     = 0;    ///< offset behind the chunk
+	std::uint64_t declared      = 0;     ///< bytes of the payload
+	std::size_t size            = 0;     ///< those that are there
+	bool whole                  = false; ///< false: the data end inside, nothing was checked
+	std::size_t end             = 0;     ///< offset behind the chunk
 };
 /// Reads the chunk at `offset`; skips none. A cut chunk comes back with what there is of it.
 /// @return Truncated if not even its length is there, ChecksumMismatch

@@ -14,8 +14,8 @@ constexpr int kStretchMax = 2047;
 
 struct LogisticTables
 {
-	std::array<std::uint16_t, 4096> squash;  ///< by x + 2048, 1/65536, 16..65520
-	std::array<std::int16_t, 4096>  stretch; ///< by p / 16
+	std::array<std::uint16_t, 4096> squash; ///< by x + 2048, 1/65536, 16..65520
+	std::array<std::int16_t, 4096> stretch; ///< by p / 16
 	LogisticTables();
 };
 extern const LogisticTables kLogistic;

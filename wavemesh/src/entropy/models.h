@@ -30,7 +30,7 @@ class AdaptiveBit
 {
 public:
 	Probability p() const { return std::clamp<Probability>(state_ >> 16, 1, 65535); }
-	int         age() const { return static_cast<int>(state_ & 1023); }
+	int age() const { return static_cast<int>(state_ & 1023); }
 
 	void update(bool bit, int limit)
 	{
@@ -40,7 +40,7 @@ public:
 		const std::int32_t step   = static_cast<std::int32_t>(
             (std::int64_t(target - old) * kAdaptiveSteps.of[static_cast<std::size_t>(n)]) >> 16);
 		state_ = (static_cast<std::uint32_t>(old + step) << 10) |
-				 static_cast<std::uint32_t>(n < limit ? n + 1 : n);
+		         static_cast<std::uint32_t>(n < limit ? n + 1 : n);
 	}
 
 private:
@@ -48,7 +48,7 @@ private:
 };
 
 /// A bit with one model.
-template<class Coder>
+template <class Coder>
 bool codeBit(Coder& coder, AdaptiveBit& model, bool value, int limit = 255)
 {
 	value = coder.bit(value, model.p());
@@ -57,7 +57,7 @@ bool codeBit(Coder& coder, AdaptiveBit& model, bool value, int limit = 255)
 }
 
 /// Equally likely bits, most significant first.
-template<class Coder>
+template <class Coder>
 std::uint32_t codeRaw(Coder& coder, int bits, std::uint32_t value)
 {
 	std::uint32_t out = 0;
@@ -76,16 +76,17 @@ inline int bitLength(std::uint64_t x)
 
 /// Unsigned integer below 2^MaxBits: its length in unary, then the bits below the leading one, the
 /// first two of them modelled.
-template<int MaxBits>
+template <int MaxBits>
 class AdaptiveUnsigned
 {
 public:
-	template<class Coder>
+	template <class Coder>
 	std::uint64_t code(Coder& coder, std::uint64_t value)
 	{
 		const int wanted = bitLength(value);
-		int       length = 0;
-		while (length < MaxBits && codeBit(coder, length_[std::size_t(length)], length < wanted, 60))
+		int length       = 0;
+		while (length < MaxBits &&
+		       codeBit(coder, length_[std::size_t(length)], length < wanted, 60))
 			++length;
 		if (length <= 1)
 			return std::uint64_t(length);
@@ -93,9 +94,9 @@ public:
 		for (int i = length - 2; i >= 0; --i) {
 			const bool bit = (value >> i) & 1;
 			const bool top = i == length - 2;
-			out            = (out << 1) |
-				  std::uint64_t(
-                      top ? codeBit(coder, top_[std::size_t(length)], bit, 60) : coder.bit(bit, 32768));
+			out            = (out << 1) | std::uint64_t(
+			                                  top ? codeBit(coder, top_[std::size_t(length)], bit, 60)
+			                                      : coder.bit(bit, 32768));
 		}
 		return out;
 	}
@@ -105,15 +106,15 @@ private:
 };
 
 /// The same for either sign: zero is one symbol, the sign equally likely.
-template<int MaxBits>
+template <int MaxBits>
 class AdaptiveSigned
 {
 public:
-	template<class Coder>
+	template <class Coder>
 	std::int64_t code(Coder& coder, std::int64_t value)
 	{
 		const auto magnitude = static_cast<std::int64_t>(
-			magnitude_.code(coder, static_cast<std::uint64_t>(value < 0 ? -value : value)));
+		    magnitude_.code(coder, static_cast<std::uint64_t>(value < 0 ? -value : value)));
 		if (magnitude == 0)
 			return 0;
 		return coder.bit(value < 0, 32768) ? -magnitude : magnitude;
@@ -125,7 +126,7 @@ private:
 
 /// Logistic mixing of N models: p = squash(sum of weight * stretch(p_i)), the weights learn from
 /// every bit (PAQ family; M. Mahoney). Everything fits into 32 bits.
-template<int N>
+template <int N>
 class Mixer
 {
 public:
@@ -137,12 +138,13 @@ public:
 	}
 
 	/// Codes a bit with all of `models`, which learn it too.
-	template<class Coder>
-	bool code(Coder& coder, const std::array<AdaptiveBit*, N>& models, int set, bool value, int limit)
+	template <class Coder>
+	bool
+	code(Coder& coder, const std::array<AdaptiveBit*, N>& models, int set, bool value, int limit)
 	{
-		Set&                        s = sets_[std::size_t(set)];
+		Set& s = sets_[std::size_t(set)];
 		std::array<std::int32_t, N> input;
-		std::int32_t                sum = 0;
+		std::int32_t sum = 0;
 		for (std::size_t i = 0; i < N; ++i)
 			input[i] = stretch(models[i]->p());
 		for (std::size_t i = 0; i < N; ++i)
@@ -150,25 +152,26 @@ public:
 		const Probability p = squash(sum >> kFraction);
 		value               = coder.bit(value, p);
 
-		const std::int32_t error = (((value ? 65535 : 0) - static_cast<std::int32_t>(p)) * s.rate()) >> 4;
+		const std::int32_t error =
+		    (((value ? 65535 : 0) - static_cast<std::int32_t>(p)) * s.rate()) >> 4;
 		for (std::size_t i = 0; i < N; ++i)
 			s.weight[i] = std::clamp(
-				s.weight[i] + ((input[i] * error + (1 << 17)) >> 18), -kLargest, kLargest);
+			    s.weight[i] + ((input[i] * error + (1 << 17)) >> 18), -kLargest, kLargest);
 		for (std::size_t i = 0; i < N; ++i)
 			models[i]->update(value, limit);
 		return value;
 	}
 
 private:
-	static constexpr int          kFraction = 14;
-	static constexpr std::int32_t kOne      = 1 << kFraction;
-	static constexpr std::int32_t kLargest  = 8 * kOne - 1;
+	static constexpr int kFraction         = 14;
+	static constexpr std::int32_t kOne     = 1 << kFraction;
+	static constexpr std::int32_t kLargest = 8 * kOne - 1;
 	static_assert(N <= 8, "the sum must stay below 2^31");
 
 	struct Set
 	{
 		std::array<std::int32_t, N> weight; ///< 1/16384
-		std::int32_t                seen = 0;
+		std::int32_t seen = 0;
 
 		/// Learning rate: high at first, then slow.
 		std::int32_t rate()

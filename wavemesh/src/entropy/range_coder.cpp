@@ -25,7 +25,7 @@ std::vector<std::uint8_t> RangeEncoder::finish()
 std::size_t RangeEncoder::prefix(const std::vector<std::uint8_t>& stream, const Mark& mark)
 {
 	std::uint32_t known = 0, free = ~std::uint32_t {0};
-	std::size_t   size  = mark.size;
+	std::size_t size = mark.size;
 	// Whatever follows, the next four bytes lie in [known, known + free].
 	for (; size < stream.size() && (known < mark.low || known + free > mark.high); ++size) {
 		free >>= 8;

@@ -24,7 +24,7 @@ public:
 	bool bit(bool value, Probability p)
 	{
 		const std::uint32_t middle =
-			low_ + static_cast<std::uint32_t>((std::uint64_t(high_ - low_) * p) >> 16);
+		    low_ + static_cast<std::uint32_t>((std::uint64_t(high_ - low_) * p) >> 16);
 		if (value)
 			high_ = middle;
 		else
@@ -41,7 +41,7 @@ public:
 	/// A point between two bits.
 	struct Mark
 	{
-		std::size_t   size = 0; ///< bytes that no later bit can change
+		std::size_t size   = 0; ///< bytes that no later bit can change
 		std::uint32_t low  = 0;
 		std::uint32_t high = ~std::uint32_t {0};
 	};
@@ -49,12 +49,13 @@ public:
 
 	/// Ends the stream with as few bytes as determine it, returns it and starts a new one.
 	std::vector<std::uint8_t> finish();
-	/// Length of the shortest prefix of a finished stream that determines every bit before the mark.
+	/// Length of the shortest prefix of a finished stream that determines every bit before the
+	/// mark.
 	static std::size_t prefix(const std::vector<std::uint8_t>& stream, const Mark& mark);
 
 private:
-	std::uint32_t             low_  = 0;
-	std::uint32_t             high_ = ~std::uint32_t {0};
+	std::uint32_t low_  = 0;
+	std::uint32_t high_ = ~std::uint32_t {0};
 	std::vector<std::uint8_t> bytes_;
 };
 
@@ -77,7 +78,7 @@ public:
 		if (exhausted_)
 			return false;
 		const std::uint32_t middle =
-			low_ + static_cast<std::uint32_t>((std::uint64_t(high_ - low_) * p) >> 16);
+		    low_ + static_cast<std::uint32_t>((std::uint64_t(high_ - low_) * p) >> 16);
 		const bool value = code_ <= middle;
 		if (missing_ != 0 && value != ((code_ | missing_) <= middle)) {
 			exhausted_ = true;
@@ -108,11 +109,11 @@ private:
 
 	const std::uint8_t* next_;
 	const std::uint8_t* end_;
-	std::uint32_t       low_     = 0;
-	std::uint32_t       high_    = ~std::uint32_t {0};
-	std::uint32_t       code_    = 0;
-	std::uint32_t       missing_ = 0; ///< bits of code_ that the data did not provide
-	bool                exhausted_ = false;
+	std::uint32_t low_     = 0;
+	std::uint32_t high_    = ~std::uint32_t {0};
+	std::uint32_t code_    = 0;
+	std::uint32_t missing_ = 0; ///< bits of code_ that the data did not provide
+	bool exhausted_        = false;
 };
 
 } // namespace wavemesh

@@ -34,7 +34,7 @@ struct VertexFans
 	std::vector<Index> corners; ///< #corners
 
 	explicit VertexFans(const CornerTable& t) :
-			begin(std::size_t(t.vertexCount) + 1, 0), corners(t.cornerCount())
+	        begin(std::size_t(t.vertexCount) + 1, 0), corners(t.cornerCount())
 	{
 		for (const Index v : t.vertex)
 			++begin[v + 1];
@@ -63,8 +63,8 @@ Status checkDirectedEdges(const CornerTable& t, const VertexFans& fans)
 			const Index to = t.vertex[nextCorner(fans.corners[i])];
 			if (seenFrom[to] == v)
 				return {
-					StatusCode::Unsupported,
-					edgeName(v, to) + " is non-manifold or its faces are oriented inconsistently"};
+				    StatusCode::Unsupported,
+				    edgeName(v, to) + " is non-manifold or its faces are oriented inconsistently"};
 			seenFrom[to] = v;
 		}
 	}
@@ -100,17 +100,16 @@ Status checkFans(const CornerTable& t, const VertexFans& fans)
 		} while (c != kNone && c != first[v]);
 		if (count != fans.size(v))
 			return {
-				StatusCode::Unsupported,
-				"vertex " + std::to_string(v) + " is non-manifold (its faces form several fans)"};
+			    StatusCode::Unsupported,
+			    "vertex " + std::to_string(v) + " is non-manifold (its faces form several fans)"};
 	}
 	return {};
 }
 
 } // namespace
 
-Result<CornerTable> buildCornerTable(
-	const std::vector<std::array<std::uint32_t, 3>>& triangles,
-	Index                                            vertexCount)
+Result<CornerTable>
+buildCornerTable(const std::vector<std::array<std::uint32_t, 3>>& triangles, Index vertexCount)
 {
 	CornerTable t;
 	t.vertexCount = vertexCount;
@@ -120,9 +119,9 @@ Result<CornerTable> buildCornerTable(
 		for (const Index v : tri)
 			if (v >= vertexCount)
 				return Status(
-					StatusCode::InvalidArgument,
-					"face " + std::to_string(f) + " refers to vertex " + std::to_string(v) +
-						", which does not exist");
+				    StatusCode::InvalidArgument, "face " + std::to_string(f) +
+				                                     " refers to vertex " + std::to_string(v) +
+				                                     ", which does not exist");
 		if (tri[0] == tri[1] || tri[1] == tri[2] || tri[2] == tri[0])
 			return Status(StatusCode::Unsupported, "face " + std::to_string(f) + " is degenerate");
 		t.vertex.insert(t.vertex.end(), tri.begin(), tri.end());

@@ -23,8 +23,8 @@
 
 namespace wavemesh {
 
-using Index                = std::uint32_t;
-constexpr Index kNone      = ~Index {0};
+using Index           = std::uint32_t;
+constexpr Index kNone = ~Index {0};
 /// Lattice point: integer multiples of the step.
 using LatticePoint = std::array<std::int32_t, 3>;
 
@@ -39,7 +39,7 @@ inline Index prevCorner(Index c)
 
 struct CornerTable
 {
-	Index              vertexCount = 0;
+	Index vertexCount = 0;
 	std::vector<Index> vertex;   ///< #corners
 	std::vector<Index> opposite; ///< #corners, kNone on the boundary
 
@@ -79,8 +79,7 @@ std::vector<Index> valences(const CornerTable& table);
 /// @return Unsupported, naming edge or vertex, for non-manifold edges or vertices, inconsistent
 ///         orientation, degenerate faces or isolated vertices. InvalidArgument for an index out of
 ///         range. Linear in faces, whatever the valences.
-Result<CornerTable> buildCornerTable(
-	const std::vector<std::array<std::uint32_t, 3>>& triangles,
-	Index                                            vertexCount);
+Result<CornerTable>
+buildCornerTable(const std::vector<std::array<std::uint32_t, 3>>& triangles, Index vertexCount);
 
 } // namespace wavemesh

@@ -19,10 +19,8 @@ double roundedToFloat(double x, int side)
 
 } // namespace
 
-Result<Lattice> makeLattice(
-	const std::vector<std::array<double, 3>>& positions,
-	int                                       bits,
-	double                                    step)
+Result<Lattice>
+makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, double step)
 {
 	if (bits < 1 || bits > kMaxBits)
 		return Status(StatusCode::InvalidArgument, "bits per coordinate must be 1 to 24");
@@ -35,8 +33,8 @@ Result<Lattice> makeLattice(
 			const double x = positions[i][k];
 			if (!std::isfinite(x))
 				return Status(
-					StatusCode::InvalidArgument,
-					"vertex " + std::to_string(i) + " has a coordinate that is not finite");
+				    StatusCode::InvalidArgument,
+				    "vertex " + std::to_string(i) + " has a coordinate that is not finite");
 			low[k]  = i == 0 ? x : std::min(low[k], x);
 			high[k] = i == 0 ? x : std::max(high[k], x);
 		}
@@ -50,8 +48,8 @@ Result<Lattice> makeLattice(
 		const double steps = std::round(extent / step);
 		if (!(steps < double(1 << kMaxBits)))
 			return Status(
-				StatusCode::InvalidArgument,
-				"the step is too small: the bounding box would have 2^24 steps or more");
+			    StatusCode::InvalidArgument,
+			    "the step is too small: the bounding box would have 2^24 steps or more");
 		lattice.step = step;
 		lattice.bits = 1;
 		while (double((1 << lattice.bits) - 1) < steps)
@@ -63,7 +61,7 @@ Result<Lattice> makeLattice(
 	// A box that starts and ends on 32-bit floats takes half the room in the file; take it if it is
 	// hardly larger.
 	std::array<double, 3> start {};
-	double                wide = 0;
+	double wide = 0;
 	for (std::size_t k = 0; k < 3; ++k) {
 		start[k] = roundedToFloat(low[k], -1);
 		wide     = std::max(wide, high[k] - start[k]);
@@ -80,16 +78,15 @@ Result<Lattice> makeLattice(
 	return lattice;
 }
 
-std::vector<LatticePoint> quantise(
-	const std::vector<std::array<double, 3>>& positions,
-	const Lattice&                            lattice)
+std::vector<LatticePoint>
+quantise(const std::vector<std::array<double, 3>>& positions, const Lattice& lattice)
 {
 	std::vector<LatticePoint> points(positions.size());
 	for (std::size_t i = 0; i < positions.size(); ++i)
 		for (std::size_t k = 0; k < 3; ++k) {
 			const double steps = std::round((positions[i][k] - lattice.origin[k]) / lattice.step);
-			points[i][k] = static_cast<std::int32_t>(
-				std::clamp(steps, 0.0, double((1 << lattice.bits) - 1)));
+			points[i][k] =
+			    static_cast<std::int32_t>(std::clamp(steps, 0.0, double((1 << lattice.bits) - 1)));
 		}
 	return points;
 }

@@ -14,8 +14,8 @@ constexpr int kMaxBits = 24;
 struct Lattice
 {
 	std::array<double, 3> origin {};
-	double                step = 1;
-	int                   bits = 1; ///< the largest coordinate is below 2^bits
+	double step = 1;
+	int bits    = 1; ///< the largest coordinate is below 2^bits
 
 	std::array<double, 3> position(const LatticePoint& p) const
 	{
@@ -27,14 +27,11 @@ struct Lattice
 /// 2^bits - 1 steps over the largest extent (1 model unit a step if that is 0).
 /// @return InvalidArgument for non-finite coordinates (naming the vertex), bits outside 1..24, a
 ///         step that is negative, not finite or gives 2^24 steps or more.
-Result<Lattice> makeLattice(
-	const std::vector<std::array<double, 3>>& positions,
-	int                                       bits,
-	double                                    step);
+Result<Lattice>
+makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, double step);
 
 /// Nearest lattice points, ties away from zero. #V by 3, 0..2^bits - 1.
-std::vector<LatticePoint> quantise(
-	const std::vector<std::array<double, 3>>& positions,
-	const Lattice&                            lattice);
+std::vector<LatticePoint>
+quantise(const std::vector<std::array<double, 3>>& positions, const Lattice& lattice);
 
 } // namespace wavemesh

@@ -9,18 +9,18 @@
 namespace wavemesh {
 namespace {
 
-/// Grows regions of merged faces over the mesh. Sides of new children are served first, in the order
-/// of their birth, 4:1 merges before all others; then faces next to what is merged already; then the
-/// next seed. Each vertex, side and face is looked at a bounded number of times.
+/// Grows regions of merged faces over the mesh. Sides of new children are served first, in the
+/// order of their birth, 4:1 merges before all others; then faces next to what is merged already;
+/// then the next seed. Each vertex, side and face is looked at a bounded number of times.
 class Search
 {
 public:
 	Search(
-		const CornerTable&               fine,
-		const std::vector<LatticePoint>& positions,
-		const GeometricalCriterion&      criterion) :
-			fine_(fine), state_(fine), sharpness_(fine, positions, criterion),
-			faceSeen_(fine.faceCount(), 0)
+	    const CornerTable& fine,
+	    const std::vector<LatticePoint>& positions,
+	    const GeometricalCriterion& criterion) :
+	        fine_(fine),
+	        state_(fine), sharpness_(fine, positions, criterion), faceSeen_(fine.faceCount(), 0)
 	{
 	}
 
@@ -40,7 +40,7 @@ private:
 	struct Task
 	{
 		Index child;
-		int   side;
+		int side;
 	};
 
 	bool add(const ChildOf* proposals, int count)
@@ -80,7 +80,7 @@ private:
 		const Star s = state_.star(child);
 		if (s.size != 6 || s.boundary)
 			return;
-		const int     at = s.find(parent);
+		const int at = s.find(parent);
 		const ChildOf p {child, parent, s.ring[(at + 3) % 6]};
 		add(&p, 1);
 	}
@@ -136,16 +136,17 @@ private:
 			if (mergeFour(child, sideIndex))
 				return;
 			const ChildOf from {s.inner[0], s.from, s.inner[1]}, to {s.inner[1], s.to, s.inner[0]};
-			const bool    fromFirst = state_.coarseValence(s.inner[0]) <= state_.coarseValence(s.inner[1]);
+			const bool fromFirst =
+			    state_.coarseValence(s.inner[0]) <= state_.coarseValence(s.inner[1]);
 			if (!state_.isChild(s.inner[0]) && !state_.isChild(s.inner[1]))
-				(void) (add(fromFirst ? &from : &to, 1) || add(fromFirst ? &to : &from, 1));
+				(void)(add(fromFirst ? &from : &to, 1) || add(fromFirst ? &to : &from, 1));
 		}
 		else if (!state_.isChild(s.inner[0])) {
-			const Index   n = s.inner[0];
+			const Index n = s.inner[0];
 			const ChildOf from {n, s.from, state_.across(s.corner[1])};
 			const ChildOf to {n, s.to, state_.across(s.corner[0])};
-			const bool    toFirst = to.parentB != kNone && staysAnyway(to.parentB) &&
-								 !(from.parentB != kNone && staysAnyway(from.parentB));
+			const bool toFirst = to.parentB != kNone && staysAnyway(to.parentB) &&
+			                     !(from.parentB != kNone && staysAnyway(from.parentB));
 			if (!addIf(toFirst ? to : from))
 				addIf(toFirst ? from : to);
 		}
@@ -210,13 +211,13 @@ private:
 			return false;
 		struct Option
 		{
-			int   score;
+			int score;
 			Index a, b;
 		} options[15];
 		int count = 0;
 		for (int i = 0; i < s.size; ++i)
 			for (int k = i + 2; k < s.size; ++k) {
-				Side      side[2];
+				Side side[2];
 				const int n = state_.sides(s, s.ring[i], s.ring[k], side);
 				if (n == 0)
 					continue;
@@ -225,7 +226,9 @@ private:
 					score += sideScore(side[m]);
 				options[count++] = {score, s.ring[i], s.ring[k]};
 			}
-		std::stable_sort(options, options + count, [](const Option& a, const Option& b) { return a.score > b.score; });
+		std::stable_sort(options, options + count, [](const Option& a, const Option& b) {
+			return a.score > b.score;
+		});
 		for (int i = 0; i < count; ++i) {
 			const ChildOf p {v, options[i].a, options[i].b};
 			if (add(&p, 1))
@@ -243,13 +246,13 @@ private:
 			state_.addCentre(v);
 	}
 
-	const CornerTable&        fine_;
-	CoarsenState              state_;
-	Sharpness                 sharpness_;
+	const CornerTable& fine_;
+	CoarsenState state_;
+	Sharpness sharpness_;
 	std::vector<std::uint8_t> faceSeen_;
-	std::vector<Task>         fresh_, sides_;
-	std::vector<Index>        faces_; ///< corners
-	std::size_t               nextFresh_ = 0, nextSide_ = 0, nextFace_ = 0;
+	std::vector<Task> fresh_, sides_;
+	std::vector<Index> faces_; ///< corners
+	std::size_t nextFresh_ = 0, nextSide_ = 0, nextFace_ = 0;
 };
 
 /// Writes down the coarse mesh that a state describes.
@@ -257,7 +260,7 @@ class Emission
 {
 public:
 	explicit Emission(const CoarsenState& state) :
-			state_(state), fine_(state.fine()), cornerOf_(fine_.cornerCount(), kNone)
+	        state_(state), fine_(state.fine()), cornerOf_(fine_.cornerCount(), kNone)
 	{
 	}
 
@@ -282,8 +285,8 @@ public:
 	}
 
 private:
-	/// One corner of a coarse face: its vertex, and of the edge it faces the child and a fine corner
-	/// that faces (a half of) that edge from inside the face.
+	/// One corner of a coarse face: its vertex, and of the edge it faces the child and a fine
+	/// corner that faces (a half of) that edge from inside the face.
 	struct Corner
 	{
 		Index vertex, child, key;
@@ -315,15 +318,13 @@ private:
 		out_.centre.resize(out_.faceCode.size(), kNone);
 		out_.centre.push_back(v);
 		face(
-			{s.ring[0], kNone, s.corner[1]},
-			{s.ring[1], kNone, s.corner[2]},
-			{s.ring[2], kNone, s.corner[0]},
-			kFaceCentre);
+		    {s.ring[0], kNone, s.corner[1]}, {s.ring[1], kNone, s.corner[2]},
+		    {s.ring[2], kNone, s.corner[0]}, kFaceCentre);
 	}
 
 	void emitChild(Index m)
 	{
-		Side      side[2];
+		Side side[2];
 		const int n = state_.sides(m, side);
 		for (int i = 0; i < n; ++i)
 			emitSide(m, side[i], state_.pattern(m, side[i], i));
@@ -332,66 +333,62 @@ private:
 	/// The edge of child m is keyed by its half towards the first parent.
 	Index keyOfMiddle(Index m, const Side& s) const
 	{
-		return state_.parents(m)[0] == s.from ? prevCorner(s.corner[0]) : nextCorner(s.corner[s.count]);
+		return state_.parents(m)[0] == s.from ? prevCorner(s.corner[0])
+		                                      : nextCorner(s.corner[s.count]);
 	}
 	bool firstParentIs(Index child, Index v) const { return state_.parents(child)[0] == v; }
 
 	void emitSide(Index m, const Side& s, Pattern pattern)
 	{
-		const Index* c      = s.corner;
-		const Index  middle = keyOfMiddle(m, s);
+		const Index* c     = s.corner;
+		const Index middle = keyOfMiddle(m, s);
 		switch (pattern) {
 		case Pattern::Two:
 			face({s.to, kNone, c[0]}, {s.from, kNone, c[1]}, {s.inner[0], m, middle}, kFaceNone);
 			break;
 		case Pattern::TwoFlipAtFrom:
 			face(
-				{s.to, kNone, prevCorner(c[1])}, {s.from, kNone, c[2]}, {s.inner[1], m, middle}, kFaceFlip1);
+			    {s.to, kNone, prevCorner(c[1])}, {s.from, kNone, c[2]}, {s.inner[1], m, middle},
+			    kFaceFlip1);
 			if (!state_.isChild(s.inner[0]))
 				face(
-					{s.from, kNone, c[1]},
-					{s.inner[0], kNone, nextCorner(c[0])},
-					{s.inner[1], kNone, c[0]},
-					kFaceNone);
+				    {s.from, kNone, c[1]}, {s.inner[0], kNone, nextCorner(c[0])},
+				    {s.inner[1], kNone, c[0]}, kFaceNone);
 			break;
 		case Pattern::TwoFlipAtTo:
 			face(
-				{s.to, kNone, c[0]}, {s.from, kNone, prevCorner(c[2])}, {s.inner[0], m, middle}, kFaceFlip2);
+			    {s.to, kNone, c[0]}, {s.from, kNone, prevCorner(c[2])}, {s.inner[0], m, middle},
+			    kFaceFlip2);
 			if (!state_.isChild(s.inner[1]))
 				face(
-					{s.inner[0], kNone, c[2]},
-					{s.inner[1], kNone, nextCorner(c[1])},
-					{s.to, kNone, c[1]},
-					kFaceNone);
+				    {s.inner[0], kNone, c[2]}, {s.inner[1], kNone, nextCorner(c[1])},
+				    {s.to, kNone, c[1]}, kFaceNone);
 			break;
 		case Pattern::ThreeFrom:
 			face(
-				{s.to, s.inner[0], firstParentIs(s.inner[0], s.from) ? c[0] : c[1]},
-				{s.from, kNone, c[2]},
-				{s.inner[1], m, middle},
-				kFaceDiagonal1);
+			    {s.to, s.inner[0], firstParentIs(s.inner[0], s.from) ? c[0] : c[1]},
+			    {s.from, kNone, c[2]}, {s.inner[1], m, middle}, kFaceDiagonal1);
 			break;
 		case Pattern::ThreeTo:
 			face(
-				{s.to, kNone, c[0]},
-				{s.from, s.inner[1], firstParentIs(s.inner[1], s.to) ? c[2] : c[1]},
-				{s.inner[0], m, middle},
-				kFaceNone);
+			    {s.to, kNone, c[0]},
+			    {s.from, s.inner[1], firstParentIs(s.inner[1], s.to) ? c[2] : c[1]},
+			    {s.inner[0], m, middle}, kFaceNone);
 			break;
 		case Pattern::Four: {
 			if (m > s.inner[0] || m > s.inner[1])
 				break; // written from the child with the lowest number
 			const Index apex = fine_.opposite[c[1]];
 			face(
-				{s.to, s.inner[0], firstParentIs(s.inner[0], s.from) ? c[0] : nextCorner(apex)},
-				{s.from, s.inner[1], firstParentIs(s.inner[1], s.to) ? c[2] : prevCorner(apex)},
-				{fine_.vertex[apex], m, middle},
-				kFaceNone);
+			    {s.to, s.inner[0], firstParentIs(s.inner[0], s.from) ? c[0] : nextCorner(apex)},
+			    {s.from, s.inner[1], firstParentIs(s.inner[1], s.to) ? c[2] : prevCorner(apex)},
+			    {fine_.vertex[apex], m, middle}, kFaceNone);
 			break;
 		}
 		case Pattern::ThreeBehindFrom:
 		case Pattern::ThreeBehindTo: // written from the child that the diagonal ends in
-		case Pattern::Invalid: break;
+		case Pattern::Invalid:
+			break;
 		}
 	}
 
@@ -409,18 +406,18 @@ private:
 	}
 
 	const CoarsenState& state_;
-	const CornerTable&  fine_;
-	std::vector<Index>  cornerOf_; ///< #fine corners: coarse corner keyed by it
-	std::vector<Index>  key_;      ///< #coarse corners
-	Coarsening          out_;
+	const CornerTable& fine_;
+	std::vector<Index> cornerOf_; ///< #fine corners: coarse corner keyed by it
+	std::vector<Index> key_;      ///< #coarse corners
+	Coarsening out_;
 };
 
 } // namespace
 
 Coarsening coarsen(
-	const CornerTable&               fine,
-	const std::vector<LatticePoint>& positions,
-	const GeometricalCriterion&      criterion)
+    const CornerTable& fine,
+    const std::vector<LatticePoint>& positions,
+    const GeometricalCriterion& criterion)
 {
 	Search search(fine, positions, criterion);
 	search.run();

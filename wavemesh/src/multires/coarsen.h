@@ -5,8 +5,9 @@
 /// merge 4:1, 3:1 or 2:1, with edge flips where a configuration blocks.
 ///
 /// Every intermediate state of the search is a valid coarsening: a vertex becomes a child only if
-/// each of its neighbours that is a child already still fits a pattern, and a side that needs a flip
-/// holds the coarse edge reserved. The search can therefore stop anywhere and always terminates.
+/// each of its neighbours that is a child already still fits a pattern, and a side that needs a
+/// flip holds the coarse edge reserved. The search can therefore stop anywhere and always
+/// terminates.
 #pragma once
 
 #include "multires/refinement.h"
@@ -17,7 +18,7 @@ namespace wavemesh {
 /// |(v-(p1+p2)/2) x (p1-p2)| / |p1-p2|^2 < deviation.
 struct GeometricalCriterion
 {
-	bool   active    = false;
+	bool active      = false;
 	double sharpness = 0.3; ///< sharp: on the boundary, or |n1 x n2| above this at an edge
 	double deviation = 0.25;
 };
@@ -25,11 +26,14 @@ struct GeometricalCriterion
 /// M^{j-1} and its relation to M^j, in the numbering of M^j.
 struct Coarsening
 {
-	CornerTable           coarse;
-	std::vector<Index>    fineVertex;  ///< #V_{j-1}: coarse vertex -> fine vertex, increasing
-	std::vector<Index>    childOnEdge; ///< #coarse corners: fine vertex on the edge the corner faces, or kNone
-	std::vector<FaceCode> faceCode;    ///< #coarse faces; two 1:2 faces that flip with each other both say so
-	std::vector<Index>    centre;      ///< #coarse faces: fine vertex of kFaceCentre, or kNone; empty if none
+	CornerTable coarse;
+	std::vector<Index> fineVertex; ///< #V_{j-1}: coarse vertex -> fine vertex, increasing
+	std::vector<Index>
+	    childOnEdge; ///< #coarse corners: fine vertex on the edge the corner faces, or kNone
+	std::vector<FaceCode>
+	    faceCode; ///< #coarse faces; two 1:2 faces that flip with each other both say so
+	std::vector<Index>
+	    centre; ///< #coarse faces: fine vertex of kFaceCentre, or kNone; empty if none
 };
 
 /// @param fine       M^j, vertices without faces not allowed
@@ -37,8 +41,8 @@ struct Coarsening
 /// @return M^{j-1}; the same connectivity with coarse.vertexCount == fine.vertexCount if nothing
 ///         could be merged. Linear.
 Coarsening coarsen(
-	const CornerTable&               fine,
-	const std::vector<LatticePoint>& positions,
-	const GeometricalCriterion&      criterion);
+    const CornerTable& fine,
+    const std::vector<LatticePoint>& positions,
+    const GeometricalCriterion& criterion);
 
 } // namespace wavemesh

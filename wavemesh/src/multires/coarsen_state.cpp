@@ -7,11 +7,11 @@
 namespace wavemesh {
 
 CoarsenState::CoarsenState(const CornerTable& fine) :
-		fine_(fine), first_(firstCorners(fine)), valence_(valences(fine)),
-		parents_(fine.vertexCount, {kNone, kNone, kNone}), childCount_(fine.vertexCount, 0),
-		coarseValence_(valence_.begin(), valence_.end()),
-		flip_(fine.vertexCount, {Pattern::Invalid, Pattern::Invalid}),
-		edgeHead_(fine.vertexCount, kNone)
+        fine_(fine), first_(firstCorners(fine)), valence_(valences(fine)),
+        parents_(fine.vertexCount, {kNone, kNone, kNone}), childCount_(fine.vertexCount, 0),
+        coarseValence_(valence_.begin(), valence_.end()),
+        flip_(fine.vertexCount, {Pattern::Invalid, Pattern::Invalid}),
+        edgeHead_(fine.vertexCount, kNone)
 {
 }
 
@@ -25,14 +25,14 @@ Star CoarsenState::star(Index v) const
 		return s;
 	}
 	const Index begin = first_[v];
-	Index       c     = begin;
+	Index c           = begin;
 	do {
 		s.ring[s.size]     = fine_.vertex[nextCorner(c)];
 		s.corner[s.size++] = c;
 		const Index left   = fine_.swingLeft(c);
 		if (left == kNone) {
-			s.boundary     = true;
-			s.ring[s.size] = fine_.vertex[prevCorner(c)];
+			s.boundary         = true;
+			s.ring[s.size]     = fine_.vertex[prevCorner(c)];
 			s.corner[s.size++] = kNone;
 		}
 		c = left;
@@ -90,7 +90,8 @@ Pattern CoarsenState::patternWithoutFlip(const Side& s) const
 	const Index last = s.inner[1];
 	if (isChild(first) && isChild(last)) {
 		const Index apex = across(s.corner[1]);
-		const bool  four = apex != kNone && hasParents(first, s.from, apex) && hasParents(last, s.to, apex);
+		const bool four =
+		    apex != kNone && hasParents(first, s.from, apex) && hasParents(last, s.to, apex);
 		return four ? Pattern::Four : Pattern::Invalid;
 	}
 	if (isChild(first) && hasParents(first, s.from, last))
@@ -100,11 +101,11 @@ Pattern CoarsenState::patternWithoutFlip(const Side& s) const
 	return Pattern::Invalid;
 }
 
-/// May the edge between two children be the flip of two 1:2 faces, seen from the neighbour? Its side
-/// that holds `child` must have one more inner vertex, which stays.
+/// May the edge between two children be the flip of two 1:2 faces, seen from the neighbour? Its
+/// side that holds `child` must have one more inner vertex, which stays.
 bool CoarsenState::flipsWith(Index child, Index neighbour) const
 {
-	Side      side[2];
+	Side side[2];
 	const int n = sides(neighbour, side);
 	for (int i = 0; i < n; ++i)
 		for (int k = 0; k < side[i].count; ++k)
@@ -138,8 +139,8 @@ bool CoarsenState::settleSide(Index child, const Side& s, int sideIndex)
 	if (held != Pattern::Invalid)
 		return true;
 	// The edge that comes back adds one to the valences at its ends: prefer the lower ones.
-	const int atFrom = coarseValence_[s.from] + coarseValence_[s.inner[1]];
-	const int atTo   = coarseValence_[s.to] + coarseValence_[s.inner[0]];
+	const int atFrom     = coarseValence_[s.from] + coarseValence_[s.inner[1]];
+	const int atTo       = coarseValence_[s.to] + coarseValence_[s.inner[0]];
 	const Pattern better = atFrom <= atTo ? Pattern::TwoFlipAtFrom : Pattern::TwoFlipAtTo;
 	const Pattern other  = atFrom <= atTo ? Pattern::TwoFlipAtTo : Pattern::TwoFlipAtFrom;
 	return reserve(child, s, sideIndex, better) || reserve(child, s, sideIndex, other);
@@ -165,17 +166,17 @@ bool CoarsenState::reserve(Index child, const Side& s, int sideIndex, Pattern fl
 	const auto edge = flippedBack(s, flip);
 	// A neighbour that is a child and flips with us already may hold the edge: then it is shared.
 	const Index neighbour = s.inner[flip == Pattern::TwoFlipAtFrom ? 0 : 1];
-	bool        shared    = false;
+	bool shared           = false;
 	if (isChild(neighbour)) {
-		Side      other[2];
+		Side other[2];
 		const int n = sides(neighbour, other);
 		for (int i = 0; i < n; ++i) {
 			const Pattern p = flip_[neighbour][std::size_t(i)];
 			if (p == Pattern::Invalid)
 				continue;
 			const auto theirs = flippedBack(other[i], p);
-			shared = shared || (theirs[0] == edge[0] && theirs[1] == edge[1]) ||
-					 (theirs[0] == edge[1] && theirs[1] == edge[0]);
+			shared            = shared || (theirs[0] == edge[0] && theirs[1] == edge[1]) ||
+			         (theirs[0] == edge[1] && theirs[1] == edge[0]);
 		}
 	}
 	if (!shared && (edgeInFine(edge[0], edge[1]) || edgeInCoarse(edge[0], edge[1])))
@@ -190,7 +191,7 @@ bool CoarsenState::reserve(Index child, const Side& s, int sideIndex, Pattern fl
 
 void CoarsenState::release(Index child, const Side& s, int sideIndex)
 {
-	Pattern&   held = flip_[child][std::size_t(sideIndex)];
+	Pattern& held   = flip_[child][std::size_t(sideIndex)];
 	const auto edge = flippedBack(s, held);
 	undo_.push_back({sideIndex ? Undo::FlipOfSide1 : Undo::FlipOfSide0, held, child, kNone});
 	held = Pattern::Invalid;
@@ -199,7 +200,7 @@ void CoarsenState::release(Index child, const Side& s, int sideIndex)
 
 bool CoarsenState::settle(Index child)
 {
-	Side      side[2];
+	Side side[2];
 	const int n = sides(child, side);
 	for (int i = 0; i < n; ++i)
 		if (!settleSide(child, side[i], i))
@@ -214,7 +215,7 @@ bool CoarsenState::propose(const ChildOf& p, Star& s)
 	if (isChild(p.child) || isParent(p.child) || isChild(p.parentA) || isChild(p.parentB))
 		return false;
 	s = star(p.child);
-	Side      side[2];
+	Side side[2];
 	const int n = sides(s, p.parentA, p.parentB, side);
 	if (n == 0 || edgeInFine(p.parentA, p.parentB) || edgeInCoarse(p.parentA, p.parentB))
 		return false;
@@ -270,12 +271,20 @@ void CoarsenState::rollBack()
 	for (; !undo_.empty(); undo_.pop_back()) {
 		const Undo& u = undo_.back();
 		switch (u.kind) {
-		case Undo::EdgeAdded: eraseEdge(u.a, u.b); break;
-		case Undo::EdgeRemoved: insertEdge(u.a, u.b); break;
-		case Undo::FlipOfSide0: flip_[u.a][0] = u.oldFlip; break;
-		case Undo::FlipOfSide1: flip_[u.a][1] = u.oldFlip; break;
+		case Undo::EdgeAdded:
+			eraseEdge(u.a, u.b);
+			break;
+		case Undo::EdgeRemoved:
+			insertEdge(u.a, u.b);
+			break;
+		case Undo::FlipOfSide0:
+			flip_[u.a][0] = u.oldFlip;
+			break;
+		case Undo::FlipOfSide1:
+			flip_[u.a][1] = u.oldFlip;
+			break;
 		case Undo::Child: {
-			auto&      p = parents_[u.a];
+			auto& p      = parents_[u.a];
 			const Star s = star(u.a);
 			for (int i = 0; i < s.size; ++i)
 				++coarseValence_[s.ring[i]];
@@ -301,7 +310,8 @@ bool CoarsenState::addCentre(Index v)
 		behind[i] = across(s.corner[i]);
 	if (behind[0] == s.ring[2] && behind[0] != kNone)
 		return false;
-	if (behind[0] == behind[1] && behind[1] == behind[2] && behind[0] != kNone && isChild(behind[0]))
+	if (behind[0] == behind[1] && behind[1] == behind[2] && behind[0] != kNone &&
+	    isChild(behind[0]))
 		return false;
 	parents_[v] = {s.ring[0], s.ring[1], s.ring[2]};
 	for (const Index p : parents_[v]) {
@@ -318,7 +328,7 @@ bool CoarsenState::edgeInFine(Index a, Index b) const
 	if (valence_[a] > valence_[b])
 		std::swap(a, b);
 	const Index begin = first_[a];
-	Index       c     = begin;
+	Index c           = begin;
 	do {
 		if (fine_.vertex[nextCorner(c)] == b || fine_.vertex[prevCorner(c)] == b)
 			return true;

@@ -14,8 +14,8 @@ namespace wavemesh {
 struct Star
 {
 	static constexpr int kMax = 6;
-	int   size     = 0; ///< neighbours; kMax + 1 if there are more
-	bool  boundary = false;
+	int size                  = 0; ///< neighbours; kMax + 1 if there are more
+	bool boundary             = false;
 	Index ring[kMax + 1];
 	Index corner[kMax + 1]; ///< corner at the centre of face (centre, ring[i], ring[i+1])
 
@@ -37,7 +37,7 @@ struct Star
 struct Side
 {
 	Index from, to;
-	int   count;
+	int count;
 	Index inner[2];
 	Index corner[3];
 };
@@ -66,30 +66,30 @@ public:
 	explicit CoarsenState(const CornerTable& fine);
 
 	const CornerTable& fine() const { return fine_; }
-	bool  isChild(Index v) const { return parents_[v][0] != kNone; }
-	bool  isParent(Index v) const { return childCount_[v] != 0; }
-	bool  isCentre(Index v) const { return isChild(v) && parents_[v][2] != kNone; }
+	bool isChild(Index v) const { return parents_[v][0] != kNone; }
+	bool isParent(Index v) const { return childCount_[v] != 0; }
+	bool isCentre(Index v) const { return isChild(v) && parents_[v][2] != kNone; }
 	const std::array<Index, 3>& parents(Index v) const { return parents_[v]; }
-	int   valence(Index v) const { return int(valence_[v]); }         ///< in M^j
-	int   coarseValence(Index v) const { return coarseValence_[v]; } ///< in M^{j-1} as it stands
+	int valence(Index v) const { return int(valence_[v]); }        ///< in M^j
+	int coarseValence(Index v) const { return coarseValence_[v]; } ///< in M^{j-1} as it stands
 
 	Star star(Index v) const;
-	/// Sides of v between two neighbours that are to be its parents: the left side first; a boundary
-	/// vertex has one. Returns their number, 0 if v cannot be a child of these.
-	int  sides(const Star& star, Index parentA, Index parentB, Side side[2]) const;
+	/// Sides of v between two neighbours that are to be its parents: the left side first; a
+	/// boundary vertex has one. Returns their number, 0 if v cannot be a child of these.
+	int sides(const Star& star, Index parentA, Index parentB, Side side[2]) const;
 	/// Sides of a child.
-	int  sides(Index child, Side side[2]) const;
+	int sides(Index child, Side side[2]) const;
 	/// Pattern of a child's side as the state stands; vertices that are not children stay.
 	Pattern pattern(Index child, const Side& side, int sideIndex) const;
 	/// Vertex across the edge that the corner faces, or kNone.
-	Index   across(Index corner) const
+	Index across(Index corner) const
 	{
 		const Index o = fine_.opposite[corner];
 		return o == kNone ? kNone : fine_.vertex[o];
 	}
 
-	/// Makes one or two vertices children, all or none. Vertices that are one already, with the same
-	/// parents, are skipped.
+	/// Makes one or two vertices children, all or none. Vertices that are one already, with the
+	/// same parents, are skipped.
 	bool add(const ChildOf* proposals, int count);
 	/// Removes a vertex of valence 3, whose neighbours must all stay.
 	bool addCentre(Index v);
@@ -99,7 +99,7 @@ private:
 	{
 		enum Kind : std::uint8_t { Child, EdgeAdded, EdgeRemoved, FlipOfSide0, FlipOfSide1 } kind;
 		Pattern oldFlip;
-		Index   a, b; ///< the edge, or a the child
+		Index a, b; ///< the edge, or a the child
 	};
 
 	bool propose(const ChildOf& proposal, Star& star);
@@ -109,38 +109,38 @@ private:
 	void release(Index child, const Side& side, int sideIndex);
 	void rollBack();
 
-	bool  edgeInFine(Index a, Index b) const;
-	bool  edgeInCoarse(Index a, Index b) const;
-	void  addEdge(Index a, Index b);
-	void  removeEdge(Index a, Index b);
-	void  insertEdge(Index a, Index b);
-	void  eraseEdge(Index a, Index b);
+	bool edgeInFine(Index a, Index b) const;
+	bool edgeInCoarse(Index a, Index b) const;
+	void addEdge(Index a, Index b);
+	void removeEdge(Index a, Index b);
+	void insertEdge(Index a, Index b);
+	void eraseEdge(Index a, Index b);
 
 	Pattern patternWithoutFlip(const Side& side) const;
-	bool    flipsWith(Index child, Index neighbour) const;
-	bool    hasParents(Index v, Index a, Index b) const
+	bool flipsWith(Index child, Index neighbour) const;
+	bool hasParents(Index v, Index a, Index b) const
 	{
 		return (parents_[v][0] == a && parents_[v][1] == b) ||
-			   (parents_[v][0] == b && parents_[v][1] == a);
+		       (parents_[v][0] == b && parents_[v][1] == a);
 	}
 
 	const CornerTable& fine_;
-	std::vector<Index>                first_;         ///< #V: corner where the fan begins
-	std::vector<Index>                valence_;       ///< #V
-	std::vector<std::array<Index, 3>> parents_;       ///< #V: of a child; third only of a centre
-	std::vector<Index>                childCount_;    ///< #V: how many have it as parent
-	std::vector<int>                  coarseValence_; ///< #V
-	std::vector<std::array<Pattern, 2>> flip_;        ///< #V by side: the flip that holds an edge reserved
+	std::vector<Index> first_;                  ///< #V: corner where the fan begins
+	std::vector<Index> valence_;                ///< #V
+	std::vector<std::array<Index, 3>> parents_; ///< #V: of a child; third only of a centre
+	std::vector<Index> childCount_;             ///< #V: how many have it as parent
+	std::vector<int> coarseValence_;            ///< #V
+	std::vector<std::array<Pattern, 2>> flip_; ///< #V by side: the flip that holds an edge reserved
 
 	/// Coarse edges that M^j does not have, in lists at the end with fewer neighbours.
 	struct NewEdge
 	{
 		Index to, next;
-		int   uses; ///< 2 if two 1:2 faces flip with each other
+		int uses; ///< 2 if two 1:2 faces flip with each other
 	};
-	std::vector<Index>   edgeHead_; ///< #V
+	std::vector<Index> edgeHead_; ///< #V
 	std::vector<NewEdge> edges_;
-	Index                freeEdge_ = kNone;
+	Index freeEdge_ = kNone;
 
 	std::vector<Undo> undo_;
 };

@@ -14,7 +14,8 @@ bool worthwhile(Index coarse, Index fine)
 	return coarse < fine && (fine <= kSmall || coarse <= fine - fine / 16);
 }
 
-std::vector<LatticePoint> pick(const std::vector<LatticePoint>& positions, const std::vector<Index>& rows)
+std::vector<LatticePoint>
+pick(const std::vector<LatticePoint>& positions, const std::vector<Index>& rows)
 {
 	std::vector<LatticePoint> out;
 	out.reserve(rows.size());
@@ -24,16 +25,14 @@ std::vector<LatticePoint> pick(const std::vector<LatticePoint>& positions, const
 }
 
 /// For each corner of `coded` the corner of `own` that is the same, given the vertices.
-std::vector<Index> matchCorners(
-	const CornerTable&        coded,
-	const CornerTable&        own,
-	const std::vector<Index>& source)
+std::vector<Index>
+matchCorners(const CornerTable& coded, const CornerTable& own, const std::vector<Index>& source)
 {
 	const std::vector<Index> first = firstCorners(own);
-	std::vector<Index>       match(coded.cornerCount());
+	std::vector<Index> match(coded.cornerCount());
 	for (Index c = 0; c < coded.cornerCount(); c += 3) {
-		const Index to   = source[coded.vertex[c + 1]];
-		Index       mine = first[source[coded.vertex[c]]];
+		const Index to = source[coded.vertex[c + 1]];
+		Index mine     = first[source[coded.vertex[c]]];
 		while (own.vertex[nextCorner(mine)] != to)
 			mine = own.swingLeft(mine);
 		match[c]     = mine;
@@ -44,10 +43,7 @@ std::vector<Index> matchCorners(
 }
 
 /// The refinement in the decoder's order; appends the new vertices' sources.
-Refinement canonical(
-	const CornerTable&  parent,
-	const Coarsening&   step,
-	std::vector<Index>& source)
+Refinement canonical(const CornerTable& parent, const Coarsening& step, std::vector<Index>& source)
 {
 	const std::vector<Index> match = matchCorners(parent, step.coarse, source);
 	for (Index& v : source)
@@ -68,7 +64,7 @@ Refinement canonical(
 	}
 	std::vector<std::uint8_t> flipped(parent.faceCount(), 0);
 	for (Index f = 0; f < parent.faceCount(); ++f) {
-		const Index    mine = match[3 * f] / 3;
+		const Index mine    = match[3 * f] / 3;
 		const FaceCode code = step.faceCode[mine];
 		if (code == kFaceCentre) {
 			++r.childVertices;
@@ -90,13 +86,13 @@ Refinement canonical(
 } // namespace
 
 std::vector<Coarsening> coarsenAll(
-	const CornerTable&                table,
-	const std::vector<LatticePoint>&  positions,
-	const GeometricalCriterion&       criterion,
-	const std::function<bool(double)>& step)
+    const CornerTable& table,
+    const std::vector<LatticePoint>& positions,
+    const GeometricalCriterion& criterion,
+    const std::function<bool(double)>& step)
 {
-	std::vector<Coarsening>   steps;
-	const CornerTable*        fine   = &table;
+	std::vector<Coarsening> steps;
+	const CornerTable* fine          = &table;
 	std::vector<LatticePoint> points = positions;
 	for (;;) {
 		Coarsening next = coarsen(*fine, points, criterion);
@@ -114,10 +110,8 @@ std::vector<Coarsening> coarsenAll(
 	return steps;
 }
 
-Replay replay(
-	const std::vector<Coarsening>& coarsenings,
-	CornerTable                    base,
-	std::vector<Index>             source)
+Replay
+replay(const std::vector<Coarsening>& coarsenings, CornerTable base, std::vector<Index> source)
 {
 	Replay out;
 	out.source = std::move(source);

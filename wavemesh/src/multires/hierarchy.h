@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// All levels of a mesh. The encoder coarsens from the finest down in a numbering of its own; the
-/// file counts from the base mesh up. replay() refines from the base as the decoder will and thereby
-/// turns the first numbering into the second, and proves that the decoder gets there.
+/// file counts from the base mesh up. replay() refines from the base as the decoder will and
+/// thereby turns the first numbering into the second, and proves that the decoder gets there.
 #pragma once
 
 #include "multires/coarsen.h"
@@ -16,30 +16,29 @@ namespace wavemesh {
 /// Linear: each level costs as much as it has faces, and has at most 15/16 of the vertices of the
 /// next finer one.
 std::vector<Coarsening> coarsenAll(
-	const CornerTable&                table,
-	const std::vector<LatticePoint>&  positions,
-	const GeometricalCriterion&       criterion,
-	const std::function<bool(double)>& step);
+    const CornerTable& table,
+    const std::vector<LatticePoint>& positions,
+    const GeometricalCriterion& criterion,
+    const std::function<bool(double)>& step);
 
 struct ReplayedLevel
 {
 	CornerTable parent; ///< level j-1 as the decoder has it
-	Refinement  refinement;
+	Refinement refinement;
 };
 
 struct Replay
 {
 	std::vector<ReplayedLevel> levels; ///< coarsest first; the last one's child is `finest`
-	CornerTable                finest;
-	std::vector<Index>         source; ///< #V: vertex of the original behind each of the decoder's
+	CornerTable finest;
+	std::vector<Index> source; ///< #V: vertex of the original behind each of the decoder's
 };
 
 /// @param base    connectivity of the base mesh in the decoder's order
-/// @param source  #V_0: vertex of the coarsest mesh in the encoder's numbering behind each of base's
+/// @param source  #V_0: vertex of the coarsest mesh in the encoder's numbering behind each of
+/// base's
 /// @param coarsenings  from coarsenAll(), finest first
-Replay replay(
-	const std::vector<Coarsening>& coarsenings,
-	CornerTable                    base,
-	std::vector<Index>             source);
+Replay
+replay(const std::vector<Coarsening>& coarsenings, CornerTable base, std::vector<Index> source);
 
 } // namespace wavemesh

@@ -20,18 +20,18 @@ struct Template
 enum TemplateId { kPlain, kCentre, kTwo, kThreeDiagonal2, kThreeDiagonal1, kFour };
 
 constexpr Template kTemplates[] = {
-	// 1:1
-	{1, {{0, 1, 2}}, {{0, 0}, {1, 1}, {2, 2}}},
-	// centre
-	{3, {{6, 1, 2}, {6, 2, 0}, {6, 0, 1}}, {{0, 0}, {3, 3}, {6, 6}}},
-	// 1:2, the child on the edge that corner 0 faces
-	{2, {{0, 1, 3}, {0, 3, 2}}, {{0, 3}, {4, 4}, {2, 2}}},
-	// 1:3, the edge that corner 0 faces is whole; diagonal from the child next to 1 to vertex 2
-	{3, {{0, 5, 4}, {5, 1, 2}, {5, 2, 4}}, {{3, 3}, {6, 1}, {2, 5}}},
-	// 1:3, diagonal from the child next to 2 to vertex 1
-	{3, {{0, 5, 4}, {5, 1, 4}, {4, 1, 2}}, {{6, 6}, {7, 1}, {2, 5}}},
-	// 1:4
-	{4, {{0, 5, 4}, {1, 3, 5}, {2, 4, 3}, {3, 4, 5}}, {{5, 7}, {8, 1}, {2, 4}}},
+    // 1:1
+    {1, {{0, 1, 2}}, {{0, 0}, {1, 1}, {2, 2}}},
+    // centre
+    {3, {{6, 1, 2}, {6, 2, 0}, {6, 0, 1}}, {{0, 0}, {3, 3}, {6, 6}}},
+    // 1:2, the child on the edge that corner 0 faces
+    {2, {{0, 1, 3}, {0, 3, 2}}, {{0, 3}, {4, 4}, {2, 2}}},
+    // 1:3, the edge that corner 0 faces is whole; diagonal from the child next to 1 to vertex 2
+    {3, {{0, 5, 4}, {5, 1, 2}, {5, 2, 4}}, {{3, 3}, {6, 1}, {2, 5}}},
+    // 1:3, diagonal from the child next to 2 to vertex 1
+    {3, {{0, 5, 4}, {5, 1, 4}, {4, 1, 2}}, {{6, 6}, {7, 1}, {2, 5}}},
+    // 1:4
+    {4, {{0, 5, 4}, {1, 3, 5}, {2, 4, 3}, {3, 4, 5}}, {{5, 7}, {8, 1}, {2, 4}}},
 };
 
 /// Pairs of descendant corners that face each other inside the face.
@@ -41,17 +41,17 @@ struct InnerLinks
 	int pair[3][2];
 };
 constexpr InnerLinks kInnerLinks[] = {
-	{0, {}},
-	{3, {{1, 5}, {4, 8}, {7, 2}}},
-	{1, {{1, 5}}},
-	{2, {{0, 7}, {4, 8}}},
-	{2, {{0, 4}, {3, 8}}},
-	{3, {{0, 9}, {3, 10}, {6, 11}}},
+    {0, {}},
+    {3, {{1, 5}, {4, 8}, {7, 2}}},
+    {1, {{1, 5}}},
+    {2, {{0, 7}, {4, 8}}},
+    {2, {{0, 4}, {3, 8}}},
+    {3, {{0, 9}, {3, 10}, {6, 11}}},
 };
 
 struct Placement
 {
-	Index        first;    ///< first descendant face
+	Index first;           ///< first descendant face
 	std::uint8_t id;       ///< TemplateId
 	std::uint8_t rotation; ///< corner of the face that plays point 0
 };
@@ -59,8 +59,8 @@ struct Placement
 Placement place(const Refinement& r, Index face, Index firstDescendant)
 {
 	const FaceShape shape = faceShape(r.childOnEdge, face);
-	const FaceCode  code  = r.faceCode[face];
-	TemplateId      id    = kFour;
+	const FaceCode code   = r.faceCode[face];
+	TemplateId id         = kFour;
 	if (shape.splits == 0)
 		id = code == kFaceCentre ? kCentre : kPlain;
 	else if (shape.splits == 1)
@@ -73,14 +73,15 @@ Placement place(const Refinement& r, Index face, Index firstDescendant)
 /// Corner among the descendants of c's face that faces half `half` of c's edge.
 Index outerCorner(const std::vector<Placement>& placements, Index c, int half)
 {
-	const Placement& p     = placements[c / 3];
-	const int        local = (int(c % 3) + 3 - p.rotation) % 3;
+	const Placement& p = placements[c / 3];
+	const int local    = (int(c % 3) + 3 - p.rotation) % 3;
 	return 3 * p.first + Index(kTemplates[p.id].outer[local][half]);
 }
 
 void flipEdge(CornerTable& t, Index c)
 {
-	// Faces (c, n, p) and (d, p, n) share the edge n-p; afterwards it runs from vertex(c) to vertex(d).
+	// Faces (c, n, p) and (d, p, n) share the edge n-p; afterwards it runs from vertex(c) to
+	// vertex(d).
 	const Index d  = t.opposite[c];
 	const Index cn = nextCorner(c), cp = prevCorner(c), dn = nextCorner(d), dp = prevCorner(d);
 	const Index acrossCn = t.opposite[cn], acrossDn = t.opposite[dn];
@@ -94,10 +95,10 @@ void flipEdge(CornerTable& t, Index c)
 } // namespace
 
 bool canFlip(
-	const CornerTable&               parent,
-	const Refinement&                r,
-	const std::vector<std::uint8_t>& flipped,
-	Index                            edgeCorner)
+    const CornerTable& parent,
+    const Refinement& r,
+    const std::vector<std::uint8_t>& flipped,
+    Index edgeCorner)
 {
 	const Index across = parent.opposite[edgeCorner];
 	if (across == kNone || flipped[edgeCorner / 3] || flipped[across / 3])
@@ -114,7 +115,7 @@ CornerTable refine(const CornerTable& parent, const Refinement& r)
 {
 	assert(r.childOnEdge.size() == parent.vertex.size());
 	std::vector<Placement> placements(parent.faceCount());
-	Index                  faces = 0;
+	Index faces = 0;
 	for (Index f = 0; f < parent.faceCount(); ++f) {
 		placements[f] = place(r, f, faces);
 		faces += Index(kTemplates[placements[f].id].faces);
@@ -131,10 +132,10 @@ CornerTable refine(const CornerTable& parent, const Refinement& r)
 			centre -= code == kFaceCentre;
 
 	for (Index f = 0; f < parent.faceCount(); ++f) {
-		const Placement& p    = placements[f];
-		const Template&  t    = kTemplates[p.id];
-		const Index      base = 3 * p.first;
-		Index            points[7];
+		const Placement& p = placements[f];
+		const Template& t  = kTemplates[p.id];
+		const Index base   = 3 * p.first;
+		Index points[7];
 		for (Index i = 0; i < 3; ++i) {
 			const Index c = 3 * f + (p.rotation + i) % 3;
 			points[i]     = parent.vertex[c];

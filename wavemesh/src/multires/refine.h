@@ -10,14 +10,15 @@ namespace wavemesh {
 
 /// Which faces of `parent` may be the partner of a flip across `edgeCorner` (the corner, in the
 /// 1:2 face, that faces the edge to flip), given the faces already involved in a flip: a face with
-/// no child on that edge that is 1:1 or 1:2, shares no second edge, and neither of the two used before.
+/// no child on that edge that is 1:1 or 1:2, shares no second edge, and neither of the two used
+/// before.
 ///
 /// @param flipped  #parent faces: 1 where the face already takes part in a flip
 bool canFlip(
-	const CornerTable&               parent,
-	const Refinement&                refinement,
-	const std::vector<std::uint8_t>& flipped,
-	Index                            edgeCorner);
+    const CornerTable& parent,
+    const Refinement& refinement,
+    const std::vector<std::uint8_t>& flipped,
+    Index edgeCorner);
 
 /// Subdivides `parent`. Face f's descendants are contiguous and in the order of the faces.
 ///

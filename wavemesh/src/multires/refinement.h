@@ -3,8 +3,8 @@
 The parent -> child map of one split: everything the paper calls D1, D2 and D3 (sec. IV), as plain
 arrays over the corners and faces of the parent level.
 
-Corner i of a face faces one of its edges; `child[i]` is the vertex on that edge. With the face turned
-so that corner 0 is the one named:
+Corner i of a face faces one of its edges; `child[i]` is the vertex on that edge. With the face
+turned so that corner 0 is the one named:
 
            0                 0                 0                  0
           / \               /|\               / \                / \
@@ -14,8 +14,8 @@ so that corner 0 is the one named:
       1:1 (plain)     1:2, 0 faces the    1:3, 0 faces the    1:4
                       split edge          edge not split
 
-A 1:3 face is closed by one diagonal (D2; drawn: m2-2), a 1:2 face may flip one of its two edges that
-are not split (D3): the edge then runs from the child to the far vertex of the face behind.
+A 1:3 face is closed by one diagonal (D2; drawn: m2-2), a 1:2 face may flip one of its two edges
+that are not split (D3): the edge then runs from the child to the far vertex of the face behind.
 */
 #pragma once
 
@@ -34,26 +34,28 @@ enum FaceCode : std::uint8_t {
 
 struct Refinement
 {
-	Index               parentVertices = 0;
-	Index               childVertices  = 0; ///< of the finer level; its first parentVertices are the parent's
-	std::vector<Index>  childOnEdge; ///< #parent corners: new vertex on the edge that the corner faces, or kNone
-	std::vector<FaceCode> faceCode;  ///< #parent faces
-	bool                hasCentres = false; ///< is any face code kFaceCentre?
+	Index parentVertices = 0;
+	Index childVertices  = 0; ///< of the finer level; its first parentVertices are the parent's
+	std::vector<Index>
+	    childOnEdge; ///< #parent corners: new vertex on the edge that the corner faces, or kNone
+	std::vector<FaceCode> faceCode; ///< #parent faces
+	bool hasCentres = false;        ///< is any face code kFaceCentre?
 };
 
 /// Number of split edges of a face, 0..3, and the corner that stands for it: the corner facing the
 /// split edge (1:2) or the edge that is not split (1:3), else the first.
 struct FaceShape
 {
-	int   splits;
+	int splits;
 	Index corner;
 };
 inline FaceShape faceShape(const std::vector<Index>& childOnEdge, Index face)
 {
-	const Index c       = 3 * face;
-	const bool  s[3]    = {childOnEdge[c] != kNone, childOnEdge[c + 1] != kNone, childOnEdge[c + 2] != kNone};
-	const int   splits  = int(s[0]) + int(s[1]) + int(s[2]);
-	Index       special = 0;
+	const Index c   = 3 * face;
+	const bool s[3] = {
+	    childOnEdge[c] != kNone, childOnEdge[c + 1] != kNone, childOnEdge[c + 2] != kNone};
+	const int splits = int(s[0]) + int(s[1]) + int(s[2]);
+	Index special    = 0;
 	if (splits == 1)
 		special = s[0] ? 0 : s[1] ? 1 : 2;
 	else if (splits == 2)

@@ -22,10 +22,11 @@ double squaredNorm(const Vector& a)
 } // namespace
 
 Sharpness::Sharpness(
-	const CornerTable&               fine,
-	const std::vector<LatticePoint>& positions,
-	const GeometricalCriterion&      criterion) :
-		positions_(positions), criterion_(criterion)
+    const CornerTable& fine,
+    const std::vector<LatticePoint>& positions,
+    const GeometricalCriterion& criterion) :
+        positions_(positions),
+        criterion_(criterion)
 {
 	if (!criterion.active)
 		return;
@@ -33,8 +34,8 @@ Sharpness::Sharpness(
 	for (Index f = 0; f < fine.faceCount(); ++f) {
 		const auto& a = positions[fine.vertex[3 * f]];
 		normal[f]     = cross(
-            difference(positions[fine.vertex[3 * f + 1]], a),
-            difference(positions[fine.vertex[3 * f + 2]], a));
+		        difference(positions[fine.vertex[3 * f + 1]], a),
+		        difference(positions[fine.vertex[3 * f + 2]], a));
 	}
 	const double threshold = criterion.sharpness * criterion.sharpness;
 	sharp_.assign(fine.vertexCount, 0);
@@ -57,13 +58,12 @@ bool Sharpness::allows(const ChildOf& p) const
 {
 	if (!criterion_.active || !isSharp(p.child))
 		return true;
-	const auto&  a     = positions_[p.parentA];
-	const auto&  b     = positions_[p.parentB];
+	const auto& a      = positions_[p.parentA];
+	const auto& b      = positions_[p.parentB];
 	const Vector edge  = difference(a, b);
 	const Vector twice = {
-		2.0 * positions_[p.child][0] - a[0] - b[0],
-		2.0 * positions_[p.child][1] - a[1] - b[1],
-		2.0 * positions_[p.child][2] - a[2] - b[2]};
+	    2.0 * positions_[p.child][0] - a[0] - b[0], 2.0 * positions_[p.child][1] - a[1] - b[1],
+	    2.0 * positions_[p.child][2] - a[2] - b[2]};
 	const double length = squaredNorm(edge);
 	const double limit  = 2 * criterion_.deviation * length;
 	return squaredNorm(cross(twice, edge)) < limit * limit;

@@ -14,9 +14,9 @@ class Sharpness
 {
 public:
 	Sharpness(
-		const CornerTable&               fine,
-		const std::vector<LatticePoint>& positions,
-		const GeometricalCriterion&      criterion);
+	    const CornerTable& fine,
+	    const std::vector<LatticePoint>& positions,
+	    const GeometricalCriterion& criterion);
 
 	bool active() const { return criterion_.active; }
 	/// On the boundary, or at an edge with |n1 x n2| above the threshold. @pre active()
@@ -26,8 +26,8 @@ public:
 
 private:
 	const std::vector<LatticePoint>& positions_;
-	GeometricalCriterion             criterion_;
-	std::vector<std::uint8_t>        sharp_; ///< #V, empty if not active
+	GeometricalCriterion criterion_;
+	std::vector<std::uint8_t> sharp_; ///< #V, empty if not active
 };
 
 } // namespace wavemesh

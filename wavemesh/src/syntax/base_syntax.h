@@ -13,11 +13,11 @@ namespace wavemesh {
 
 struct BaseMesh
 {
-	CornerTable               table;
+	CornerTable table;
 	std::vector<LatticePoint> positions;
 };
 
-template<class Coder>
+template <class Coder>
 class BaseSyntax
 {
 public:
@@ -35,7 +35,7 @@ public:
 		faceDone_.assign(base.table.faceCount(), 0);
 		source.clear();
 		source_ = &source;
-		(void) grow(base.table.vertexCount, base.table.faceCount());
+		(void)grow(base.table.vertexCount, base.table.faceCount());
 		BaseMesh out;
 		out.table     = std::move(buildCornerTable(triangles_, base.table.vertexCount).value());
 		out.positions = std::move(positions_);
@@ -91,7 +91,10 @@ private:
 		}
 		return coder_.exhausted() ? truncated() : Status();
 	}
-	static Status truncated() { return {StatusCode::Truncated, "the data end inside the base mesh"}; }
+	static Status truncated()
+	{
+		return {StatusCode::Truncated, "the data end inside the base mesh"};
+	}
 
 	Index vertexAt(Index corner, Index k) const
 	{
@@ -119,8 +122,8 @@ private:
 			LatticePoint predicted;
 			for (std::size_t k = 0; k < 3; ++k)
 				predicted[k] = wrappingSubtract(
-					wrappingAdd(positions_[gate.from][k], positions_[gate.to][k]),
-					positions_[gate.behind][k]);
+				    wrappingAdd(positions_[gate.from][k], positions_[gate.to][k]),
+				    positions_[gate.behind][k]);
 			v = newVertex(kReading ? kNone : base_->table.vertex[corner], predicted, tipModels_);
 		}
 		else
@@ -128,7 +131,7 @@ private:
 		if (coder_.exhausted())
 			return truncated();
 		if (positions_.size() > vertices || triangles_.size() >= faces ||
-			!addFace(gate.to, gate.from, v, kReading ? kNone : corner))
+		    !addFace(gate.to, gate.from, v, kReading ? kNone : corner))
 			return corrupt();
 		return {};
 	}
@@ -144,14 +147,16 @@ private:
 		return codeRaw(coder_, bitLength(positions_.size() - 1), tip);
 	}
 
-	Index newVertex(Index source, const LatticePoint& predicted, std::array<AdaptiveSigned<31>, 3>& models)
+	Index newVertex(
+	    Index source, const LatticePoint& predicted, std::array<AdaptiveSigned<31>, 3>& models)
 	{
 		LatticePoint p {};
 		for (std::size_t k = 0; k < 3; ++k) {
 			std::int64_t residual = 0;
 			if constexpr (!kReading)
 				residual = wrappingSubtract(base_->positions[source][k], predicted[k]);
-			p[k] = wrappingAdd(predicted[k], static_cast<std::int32_t>(models[k].code(coder_, residual)));
+			p[k] = wrappingAdd(
+			    predicted[k], static_cast<std::int32_t>(models[k].code(coder_, residual)));
 		}
 		if constexpr (!kReading) {
 			codedAs_[source] = static_cast<Index>(positions_.size());
@@ -193,20 +198,20 @@ private:
 		return true;
 	}
 
-	Coder&                                         coder_;
-	std::vector<std::array<Index, 3>>              triangles_;
-	std::vector<LatticePoint>                      positions_;
-	std::vector<Gate>                              gates_;
-	std::unordered_set<std::uint64_t>              edges_; ///< directed
-	std::vector<Index>                             openInto_, openFrom_; ///< #V: the youngest edges
-	LatticePoint                                   last_ {};
-	AdaptiveBit                                    boundary_, isNew_, isLeft_, isRight_;
-	std::array<AdaptiveSigned<31>, 3>              startModels_, tipModels_;
+	Coder& coder_;
+	std::vector<std::array<Index, 3>> triangles_;
+	std::vector<LatticePoint> positions_;
+	std::vector<Gate> gates_;
+	std::unordered_set<std::uint64_t> edges_; ///< directed
+	std::vector<Index> openInto_, openFrom_;  ///< #V: the youngest edges
+	LatticePoint last_ {};
+	AdaptiveBit boundary_, isNew_, isLeft_, isRight_;
+	std::array<AdaptiveSigned<31>, 3> startModels_, tipModels_;
 
 	// Writing only.
-	const BaseMesh*           base_   = nullptr;
-	std::vector<Index>*       source_ = nullptr;
-	std::vector<Index>        codedAs_;  ///< #V: place in the coded order
+	const BaseMesh* base_       = nullptr;
+	std::vector<Index>* source_ = nullptr;
+	std::vector<Index> codedAs_;         ///< #V: place in the coded order
 	std::vector<std::uint8_t> faceDone_; ///< #F
 };
 

@@ -22,17 +22,17 @@ public:
 	std::vector<AdaptiveBit> splitByValences {6 * 6 * 6 * 6};
 	std::vector<AdaptiveBit> splitByEnds {4 * 4 * 4 * 4 * 3};
 	std::vector<AdaptiveBit> splitByShape {kLengths * kLengths * 9};
-	Mixer<kSplitInputs>      splitMixer {7 * 7};
+	Mixer<kSplitInputs> splitMixer {7 * 7};
 
 	static constexpr int kDiagonalInputs = 2;
 	std::vector<AdaptiveBit> diagonalByValences {5 * 5 * 3};
 	std::vector<AdaptiveBit> diagonalByLength {kLengths};
-	Mixer<kDiagonalInputs>   diagonalMixer {1};
+	Mixer<kDiagonalInputs> diagonalMixer {1};
 
 	static constexpr int kFlipInputs = 2;
 	std::vector<AdaptiveBit> flipByLength {kLengths * kLengths};
 	std::vector<AdaptiveBit> flipByNeighbours {3 * 3 * 5};
-	Mixer<kFlipInputs>       flipMixer {1};
+	Mixer<kFlipInputs> flipMixer {1};
 	std::vector<AdaptiveBit> flipSide {kLengths * 3};
 
 	AdaptiveBit hasCentres;
@@ -43,18 +43,19 @@ public:
 ///
 /// Writing: `refinement` is whole and canonical. Reading: it is filled; new vertices are numbered
 /// edge by edge in the order of the corners, then face by face.
-template<class Coder>
+template <class Coder>
 class ConnectivitySyntax
 {
 public:
 	ConnectivitySyntax(
-		Coder&                           coder,
-		ConnectivityModels&              models,
-		const CornerTable&               parent,
-		const std::vector<LatticePoint>& positions) :
-			coder_(coder), models_(models), parent_(parent), positions_(positions),
-			valence_(valences(parent)), known_(parent.cornerCount(), kUnknown),
-			splitsAt_(parent.vertexCount, 0), wholesAt_(parent.vertexCount, 0)
+	    Coder& coder,
+	    ConnectivityModels& models,
+	    const CornerTable& parent,
+	    const std::vector<LatticePoint>& positions) :
+	        coder_(coder),
+	        models_(models), parent_(parent), positions_(positions), valence_(valences(parent)),
+	        known_(parent.cornerCount(), kUnknown), splitsAt_(parent.vertexCount, 0),
+	        wholesAt_(parent.vertexCount, 0)
 	{
 	}
 
@@ -78,8 +79,11 @@ private:
 	const LatticePoint& at(Index v) const { return positions_[v]; }
 	int lengthOf(Index a, Index b) const { return log2Quarters(squaredDistance(at(a), at(b))); }
 
-	static int clampTo(int x, int low, int high) { return x < low ? 0 : x > high ? high - low : x - low; }
-	int        valenceClass(Index v) const { return clampTo(static_cast<int>(valence_[v]), 3, 8); }
+	static int clampTo(int x, int low, int high)
+	{
+		return x < low ? 0 : x > high ? high - low : x - low;
+	}
+	int valenceClass(Index v) const { return clampTo(static_cast<int>(valence_[v]), 3, 8); }
 	/// Class of a difference of log2Quarters() of squared lengths, 0..kLengths-1.
 	static int ratioClass(int quarters)
 	{
@@ -121,10 +125,10 @@ private:
 
 		int left = faceState(c), right = faceState(d);
 		// Mean of the edges around, in quarters of an octave of squared length.
-		const int own    = lengthOf(a, b);
-		int       around = lengthOf(a, l) + lengthOf(b, l);
-		around           = o == kNone ? around / 2 : (around + lengthOf(a, o) + lengthOf(b, o)) / 4;
-		const int ratio  = ratioClass(own - around);
+		const int own   = lengthOf(a, b);
+		int around      = lengthOf(a, l) + lengthOf(b, l);
+		around          = o == kNone ? around / 2 : (around + lengthOf(a, o) + lengthOf(b, o)) / 4;
+		const int ratio = ratioClass(own - around);
 		// How far the far vertices are apart, against the edge: high for narrow pairs of faces.
 		const int across = o == kNone ? 0 : ratioClass(lengthOf(l, o) - own - 4);
 
@@ -140,18 +144,17 @@ private:
 		if (ea > eb)
 			std::swap(ea, eb);
 
-		ConnectivityModels& m  = models_;
-		const int           lr = left * 7 + right;
-		split = m.splitMixer.code(
-			coder_,
-			{&m.splitByFaces[index((lr * 5 + std::min(vl, 4)) * 5 + std::min(vo, 4))],
-			 &m.splitByLength[index(ratio * 49 + lr)],
-			 &m.splitByValences[index(((va * 6 + vb) * 6 + vl) * 6 + vo)],
-			 &m.splitByEnds[index((ea * 16 + eb) * 3 + (left >= 3) + (right >= 3))],
-			 &m.splitByShape[index((ratio * 12 + across) * 9 + (left / 2 % 3) * 3 + right / 2 % 3)]},
-			lr,
-			split,
-			255);
+		ConnectivityModels& m = models_;
+		const int lr          = left * 7 + right;
+		split                 = m.splitMixer.code(
+		                    coder_,
+		                    {&m.splitByFaces[index((lr * 5 + std::min(vl, 4)) * 5 + std::min(vo, 4))],
+		                     &m.splitByLength[index(ratio * 49 + lr)],
+		                     &m.splitByValences[index(((va * 6 + vb) * 6 + vl) * 6 + vo)],
+		                     &m.splitByEnds[index((ea * 16 + eb) * 3 + (left >= 3) + (right >= 3))],
+		                     &m.splitByShape[index(
+		                         (ratio * 12 + across) * 9 + (left / 2 % 3) * 3 + right / 2 % 3)]},
+		                    lr, split, 255);
 		known_[c] = split ? kSplit : kWhole;
 		if (d != kNone)
 			known_[d] = known_[c];
@@ -171,7 +174,7 @@ private:
 		std::vector<std::uint8_t> flipped(parent_.faceCount(), 0);
 		for (Index f = 0; f < parent_.faceCount() && !coder_.exhausted(); ++f) {
 			const FaceShape shape = faceShape(r.childOnEdge, f);
-			FaceCode&       code  = r.faceCode[f];
+			FaceCode& code        = r.faceCode[f];
 			if (shape.splits == 2)
 				codeDiagonal(shape.corner, code);
 			else if (shape.splits == 1)
@@ -195,17 +198,16 @@ private:
 	void codeDiagonal(Index corner, FaceCode& code)
 	{
 		const Index v0 = parent_.vertex[corner], v1 = next(corner), v2 = prev(corner);
-		const int   d2 = log2Quarters(distanceToMiddle(v2, v0, v1));
-		const int   d1 = log2Quarters(distanceToMiddle(v1, v0, v2));
-		const int   c1 = valenceClass(v1), c2 = valenceClass(v2);
-		const int   difference = clampTo(static_cast<int>(valence_[v1]) - static_cast<int>(valence_[v2]), -2, 2);
-		const bool  one = models_.diagonalMixer.code(
-            coder_,
-            {&models_.diagonalByValences[index((difference * 5 + std::min((c1 + c2) / 2, 4)) * 3)],
-			  &models_.diagonalByLength[index(ratioClass(d2 - d1))]},
-            0,
-            code == kFaceDiagonal1,
-            255);
+		const int d2 = log2Quarters(distanceToMiddle(v2, v0, v1));
+		const int d1 = log2Quarters(distanceToMiddle(v1, v0, v2));
+		const int c1 = valenceClass(v1), c2 = valenceClass(v2);
+		const int difference =
+		    clampTo(static_cast<int>(valence_[v1]) - static_cast<int>(valence_[v2]), -2, 2);
+		const bool one = models_.diagonalMixer.code(
+		    coder_,
+		    {&models_.diagonalByValences[index((difference * 5 + std::min((c1 + c2) / 2, 4)) * 3)],
+		     &models_.diagonalByLength[index(ratioClass(d2 - d1))]},
+		    0, code == kFaceDiagonal1, 255);
 		code = one ? kFaceDiagonal1 : kFaceNone;
 	}
 	/// Four times the squared distance from v to the middle of a and b.
@@ -220,57 +222,58 @@ private:
 	}
 
 	/// D3: is an edge flipped, and which. Faces that take part in a flip already say nothing.
-	void codeFlip(const Refinement& r, Index corner, std::vector<std::uint8_t>& flipped, FaceCode& code)
+	void
+	codeFlip(const Refinement& r, Index corner, std::vector<std::uint8_t>& flipped, FaceCode& code)
 	{
 		const Index c1 = nextCorner(corner), c2 = prevCorner(corner);
-		const bool  can1 = canFlip(parent_, r, flipped, c1), can2 = canFlip(parent_, r, flipped, c2);
+		const bool can1 = canFlip(parent_, r, flipped, c1), can2 = canFlip(parent_, r, flipped, c2);
 		if (!can1 && !can2)
 			return;
 		const int gain1 = can1 ? flipGain(corner, c1) : 0;
 		const int gain2 = can2 ? flipGain(corner, c2) : 0;
 		const int high = std::max(gain1, gain2), low = std::min(gain1, gain2);
 		const bool flip = models_.flipMixer.code(
-			coder_,
-			{&models_.flipByLength[index(high * 12 + low)],
-			 &models_.flipByNeighbours[index(
-				 (partner(r, c1, can1) * 3 + partner(r, c2, can2)) * 5 + std::min(valenceClass(parent_.vertex[corner]), 4))]},
-			0,
-			code != kFaceNone,
-			255);
+		    coder_,
+		    {&models_.flipByLength[index(high * 12 + low)],
+		     &models_.flipByNeighbours[index(
+		         (partner(r, c1, can1) * 3 + partner(r, c2, can2)) * 5 +
+		         std::min(valenceClass(parent_.vertex[corner]), 4))]},
+		    0, code != kFaceNone, 255);
 		if (!flip)
 			return;
 		bool second = !can1;
 		if (can1 && can2)
 			second = codeBit(
-				coder_, models_.flipSide[index(ratioClass(gain2 - gain1) * 3)], code == kFaceFlip2);
-		code               = second ? kFaceFlip2 : kFaceFlip1;
-		const Index edge   = second ? c2 : c1;
-		flipped[edge / 3]  = 1;
+			    coder_, models_.flipSide[index(ratioClass(gain2 - gain1) * 3)], code == kFaceFlip2);
+		code                                = second ? kFaceFlip2 : kFaceFlip1;
+		const Index edge                    = second ? c2 : c1;
+		flipped[edge / 3]                   = 1;
 		flipped[parent_.opposite[edge] / 3] = 1;
 	}
 	int partner(const Refinement& r, Index edge, bool can) const
 	{
 		return can ? 1 + faceShape(r.childOnEdge, parent_.opposite[edge] / 3).splits : 0;
 	}
-	/// How much shorter the flipped edge is: class of the ratio of the edge to what replaces it, taken
-	/// to the far vertex behind (the place of a child there is not known yet).
+	/// How much shorter the flipped edge is: class of the ratio of the edge to what replaces it,
+	/// taken to the far vertex behind (the place of a child there is not known yet).
 	int flipGain(Index corner, Index edge) const
 	{
 		const Index across = parent_.opposite[edge];
-		const int   own    = lengthOf(next(edge), prev(edge)) + 8; // four times the square, below too
+		const int own = lengthOf(next(edge), prev(edge)) + 8; // four times the square, below too
 		return ratioClass(
-			own - log2Quarters(distanceToMiddle(parent_.vertex[across], next(corner), prev(corner))));
+		    own -
+		    log2Quarters(distanceToMiddle(parent_.vertex[across], next(corner), prev(corner))));
 	}
 
 	static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-	Coder&                           coder_;
-	ConnectivityModels&              models_;
-	const CornerTable&               parent_;
+	Coder& coder_;
+	ConnectivityModels& models_;
+	const CornerTable& parent_;
 	const std::vector<LatticePoint>& positions_;
-	std::vector<Index>               valence_;
-	std::vector<Known>               known_;              ///< #corners
-	std::vector<std::uint8_t>        splitsAt_, wholesAt_; ///< #V: known edges, at most 3
+	std::vector<Index> valence_;
+	std::vector<Known> known_;                      ///< #corners
+	std::vector<std::uint8_t> splitsAt_, wholesAt_; ///< #V: known edges, at most 3
 };
 
 } // namespace wavemesh

@@ -29,13 +29,13 @@ public:
 	std::vector<AdaptiveBit> byOtherAxes {3 * kMagnitudes * (kLengths / 4 + 1) * kNodes};
 	std::vector<AdaptiveBit> byOffset {kOffsets * (kLengths / 2) * kNodes};
 	std::vector<AdaptiveBit> byOffsetAndNeighbours {kOffsets * kMagnitudes * kNodes};
-	Mixer<kInputs>           mixer {kNodes};
+	Mixer<kInputs> mixer {kNodes};
 
 	/// #vertices so far: 1-norm of the detail each was born with.
 	std::vector<std::uint32_t> magnitude;
 };
 
-template<class Coder>
+template <class Coder>
 class DetailSyntax
 {
 public:
@@ -43,12 +43,13 @@ public:
 	/// @param refinement  whole
 	/// @param positions   #V_{j-1} by 3: level j-1 as the decoder has it
 	DetailSyntax(
-		Coder&                           coder,
-		DetailModels&                    models,
-		const CornerTable&               table,
-		const Refinement&                refinement,
-		const std::vector<LatticePoint>& positions) :
-			coder_(coder), models_(models), table_(table), refinement_(refinement), positions_(positions)
+	    Coder& coder,
+	    DetailModels& models,
+	    const CornerTable& table,
+	    const Refinement& refinement,
+	    const std::vector<LatticePoint>& positions) :
+	        coder_(coder),
+	        models_(models), table_(table), refinement_(refinement), positions_(positions)
 	{
 	}
 
@@ -81,8 +82,8 @@ private:
 	struct Context
 	{
 		Index child;
-		int   length;     ///< class
-		int   near, born; ///< classes of the details around, and of those the parents were born with
+		int length;     ///< class
+		int near, born; ///< classes of the details around, and of those the parents were born with
 		std::array<int, 3> offset; ///< classes of the smooth prediction, less the middle
 	};
 
@@ -93,7 +94,8 @@ private:
 		const Index a = table_.vertex[nextCorner(c)], b = table_.vertex[prevCorner(c)];
 		context_.child  = refinement_.childOnEdge[c];
 		context_.length = lengthClass(squaredDistance(at(a), at(b)));
-		context_.born   = magnitudeClass((std::uint64_t(models_.magnitude[a]) + models_.magnitude[b]) / 2);
+		context_.born =
+		    magnitudeClass((std::uint64_t(models_.magnitude[a]) + models_.magnitude[b]) / 2);
 
 		std::uint64_t sum = 0, count = 0;
 		for (const Index side : {c, d}) {
@@ -107,16 +109,21 @@ private:
 				}
 			}
 		}
-		context_.near = count == 0 ? 0 : 1 + std::min(magnitudeClass(sum / count), DetailModels::kMagnitudes - 2);
+		context_.near =
+		    count == 0 ? 0
+		               : 1 + std::min(magnitudeClass(sum / count), DetailModels::kMagnitudes - 2);
 
 		// Butterfly rule: (a+b)/2 + (l+o)/8 - (the four vertices beyond)/16.
 		std::array<std::int64_t, 3> offset {0, 0, 0};
 		if (d != kNone) {
 			const Index beyond[4] = {
-				across(nextCorner(c)), across(prevCorner(c)), across(nextCorner(d)), across(prevCorner(d))};
-			if (beyond[0] != kNone && beyond[1] != kNone && beyond[2] != kNone && beyond[3] != kNone)
+			    across(nextCorner(c)), across(prevCorner(c)), across(nextCorner(d)),
+			    across(prevCorner(d))};
+			if (beyond[0] != kNone && beyond[1] != kNone && beyond[2] != kNone &&
+			    beyond[3] != kNone)
 				for (std::size_t k = 0; k < 3; ++k) {
-					offset[k] = 2 * (std::int64_t(at(table_.vertex[c])[k]) + at(table_.vertex[d])[k]);
+					offset[k] =
+					    2 * (std::int64_t(at(table_.vertex[c])[k]) + at(table_.vertex[d])[k]);
 					for (const Index v : beyond)
 						offset[k] -= at(v)[k];
 				}
@@ -148,8 +155,9 @@ private:
 	void setOffset(const std::array<std::int64_t, 3>& sixteenths)
 	{
 		for (std::size_t k = 0; k < 3; ++k) {
-			const std::int64_t x     = sixteenths[k];
-			const int          size  = std::min(bitLength(static_cast<std::uint64_t>((x < 0 ? -x : x) >> 2)), 10);
+			const std::int64_t x = sixteenths[k];
+			const int size =
+			    std::min(bitLength(static_cast<std::uint64_t>((x < 0 ? -x : x) >> 2)), 10);
 			context_.offset[k] = 10 + (x < 0 ? -size : size);
 		}
 	}
@@ -171,7 +179,7 @@ private:
 	bool codeDetail(LatticePoint& detail)
 	{
 		std::uint64_t known = 0;
-		LatticePoint  out {};
+		LatticePoint out {};
 		for (std::size_t axis = 0; axis < 3; ++axis) {
 			select(static_cast<int>(axis), known);
 			out[axis] = codeValue(detail[axis]);
@@ -182,27 +190,28 @@ private:
 		}
 		detail = out;
 		models_.magnitude[context_.child] =
-			static_cast<std::uint32_t>(std::min<std::uint64_t>(known, 0xffffffffu));
+		    static_cast<std::uint32_t>(std::min<std::uint64_t>(known, 0xffffffffu));
 		return true;
 	}
 
 	/// Finds the rows of the models for one coordinate.
 	void select(int axis, std::uint64_t known)
 	{
-		DetailModels& m      = models_;
-		const int     offset = context_.offset[std::size_t(axis)];
-		const int     other  = axis == 0 ? context_.near : magnitudeClass(known);
-		const auto    row    = [](std::vector<AdaptiveBit>& table, int i) {
+		DetailModels& m  = models_;
+		const int offset = context_.offset[std::size_t(axis)];
+		const int other  = axis == 0 ? context_.near : magnitudeClass(known);
+		const auto row   = [](std::vector<AdaptiveBit>& table, int i) {
             return &table[std::size_t(i) * DetailModels::kNodes];
 		};
 		rows_ = {
-			row(m.byAxis, axis),
-			row(m.byLength, axis * DetailModels::kLengths + context_.length),
-			row(m.byNeighbours, context_.near * DetailModels::kMagnitudes + context_.born),
-			row(m.byOtherAxes,
-				(axis * DetailModels::kMagnitudes + other) * (DetailModels::kLengths / 4 + 1) + context_.length / 4),
-			row(m.byOffset, offset * (DetailModels::kLengths / 2) + context_.length / 2),
-			row(m.byOffsetAndNeighbours, offset * DetailModels::kMagnitudes + context_.near)};
+		    row(m.byAxis, axis),
+		    row(m.byLength, axis * DetailModels::kLengths + context_.length),
+		    row(m.byNeighbours, context_.near * DetailModels::kMagnitudes + context_.born),
+		    row(m.byOtherAxes,
+		        (axis * DetailModels::kMagnitudes + other) * (DetailModels::kLengths / 4 + 1) +
+		            context_.length / 4),
+		    row(m.byOffset, offset * (DetailModels::kLengths / 2) + context_.length / 2),
+		    row(m.byOffsetAndNeighbours, offset * DetailModels::kMagnitudes + context_.near)};
 	}
 
 	bool codeNode(int node, bool value)
@@ -215,21 +224,22 @@ private:
 
 	std::int32_t codeValue(std::int32_t value)
 	{
-		constexpr int kZero = 0, kSign = 1, kLength = 2, kTop = kLength + DetailModels::kMaxLength + 1;
+		constexpr int kZero = 0, kSign = 1, kLength = 2,
+		              kTop    = kLength + DetailModels::kMaxLength + 1;
 		constexpr int kSecond = kTop + DetailModels::kMaxLength + 1;
 		if (codeNode(kZero, value == 0))
 			return 0;
-		const bool          negative  = codeNode(kSign, value < 0);
-		const std::uint32_t magnitude = negative ? 0u - static_cast<std::uint32_t>(value)
-												 : static_cast<std::uint32_t>(value);
-		const int           wanted    = bitLength(magnitude);
-		int                 length    = 1;
+		const bool negative = codeNode(kSign, value < 0);
+		const std::uint32_t magnitude =
+		    negative ? 0u - static_cast<std::uint32_t>(value) : static_cast<std::uint32_t>(value);
+		const int wanted = bitLength(magnitude);
+		int length       = 1;
 		while (length < DetailModels::kMaxLength && codeNode(kLength + length, length < wanted))
 			++length;
 		std::uint32_t out = 1;
 		for (int i = length - 2; i >= 0; --i) {
 			const bool bit = (magnitude >> i) & 1;
-			bool       read;
+			bool read;
 			if (i == length - 2)
 				read = codeNode(kTop + length, bit);
 			else if (i == length - 3)
@@ -241,13 +251,13 @@ private:
 		return static_cast<std::int32_t>(negative ? 0u - out : out);
 	}
 
-	Coder&                           coder_;
-	DetailModels&                    models_;
-	const CornerTable&               table_;
-	const Refinement&                refinement_;
+	Coder& coder_;
+	DetailModels& models_;
+	const CornerTable& table_;
+	const Refinement& refinement_;
 	const std::vector<LatticePoint>& positions_;
-	Context                          context_ {};
-	Index                            centre_ = kNone;
+	Context context_ {};
+	Index centre_ = kNone;
 	std::array<AdaptiveBit*, DetailModels::kInputs> rows_ {};
 };
 

@@ -13,11 +13,11 @@ std::int64_t ceilDivide(std::int64_t a, std::int64_t b)
 
 /// Adds sign * floor(alpha D) to the parents, (24).
 void update(
-	const UpdateWeights&             weights,
-	const std::vector<LatticePoint>& details,
-	std::vector<LatticePoint>&       positions,
-	std::size_t                      parentCount,
-	bool                             add)
+    const UpdateWeights& weights,
+    const std::vector<LatticePoint>& details,
+    std::vector<LatticePoint>& positions,
+    std::size_t parentCount,
+    bool add)
 {
 	if (weights.begin.empty())
 		return;
@@ -25,13 +25,14 @@ void update(
 	for (std::size_t child = 0; child < details.size(); ++child)
 		for (Index e = weights.begin[child]; e < weights.begin[child + 1]; ++e)
 			for (std::size_t k = 0; k < 3; ++k)
-				sums[weights.vertex[e]][k] += static_cast<std::uint64_t>(
-					std::int64_t(weights.alpha[e]) * details[child][k]);
+				sums[weights.vertex[e]][k] +=
+				    static_cast<std::uint64_t>(std::int64_t(weights.alpha[e]) * details[child][k]);
 	for (std::size_t v = 0; v < parentCount; ++v)
 		for (std::size_t k = 0; k < 3; ++k) {
-			const auto shift = static_cast<std::int32_t>(static_cast<std::int64_t>(sums[v][k]) >> 16);
-			positions[v][k]  = add ? wrappingAdd(positions[v][k], shift)
-								   : wrappingSubtract(positions[v][k], shift);
+			const auto shift =
+			    static_cast<std::int32_t>(static_cast<std::int64_t>(sums[v][k]) >> 16);
+			positions[v][k] = add ? wrappingAdd(positions[v][k], shift)
+			                      : wrappingSubtract(positions[v][k], shift);
 		}
 }
 
@@ -40,25 +41,25 @@ void update(
 Parents parentsOf(const CornerTable& parent, const Refinement& r)
 {
 	Parents parents(r.childVertices - r.parentVertices);
-	Index   centre = r.childVertices - r.parentVertices;
+	Index centre = r.childVertices - r.parentVertices;
 	for (const FaceCode code : r.faceCode)
 		centre -= code == kFaceCentre;
 	for (Index c = 0; c < parent.cornerCount(); ++c) {
 		const Index d = parent.opposite[c];
 		if (r.childOnEdge[c] != kNone && (d == kNone || c < d))
 			parents[r.childOnEdge[c] - r.parentVertices] = {
-				parent.vertex[nextCorner(c)], parent.vertex[prevCorner(c)], kNone};
+			    parent.vertex[nextCorner(c)], parent.vertex[prevCorner(c)], kNone};
 	}
 	for (Index f = 0; f < parent.faceCount(); ++f)
 		if (r.faceCode[f] == kFaceCentre)
 			parents[centre++] = {
-				parent.vertex[3 * f], parent.vertex[3 * f + 1], parent.vertex[3 * f + 2]};
+			    parent.vertex[3 * f], parent.vertex[3 * f + 1], parent.vertex[3 * f + 2]};
 	return parents;
 }
 
 LatticePoint middle(const std::vector<LatticePoint>& positions, const std::array<Index, 3>& parents)
 {
-	LatticePoint        m;
+	LatticePoint m;
 	const LatticePoint &a = positions[parents[0]], &b = positions[parents[1]];
 	for (std::size_t k = 0; k < 3; ++k) {
 		const std::int64_t sum = std::int64_t(a[k]) + b[k];
@@ -68,12 +69,10 @@ LatticePoint middle(const std::vector<LatticePoint>& positions, const std::array
 	return m;
 }
 
-std::vector<LatticePoint> analyse(
-	const Parents&             parents,
-	const UpdateWeights&       weights,
-	std::vector<LatticePoint>& positions)
+std::vector<LatticePoint>
+analyse(const Parents& parents, const UpdateWeights& weights, std::vector<LatticePoint>& positions)
 {
-	const std::size_t         parentCount = positions.size() - parents.size();
+	const std::size_t parentCount = positions.size() - parents.size();
 	std::vector<LatticePoint> details(parents.size());
 	for (std::size_t i = 0; i < parents.size(); ++i) {
 		const LatticePoint m = middle(positions, parents[i]);
@@ -85,10 +84,10 @@ std::vector<LatticePoint> analyse(
 }
 
 void synthesise(
-	const Parents&                   parents,
-	const UpdateWeights&             weights,
-	const std::vector<LatticePoint>& details,
-	std::vector<LatticePoint>&       positions)
+    const Parents& parents,
+    const UpdateWeights& weights,
+    const std::vector<LatticePoint>& details,
+    std::vector<LatticePoint>& positions)
 {
 	const std::size_t parentCount = positions.size();
 	update(weights, details, positions, parentCount, false);

@@ -8,8 +8,8 @@
 
 namespace wavemesh {
 
-/// Parents of each new vertex: the ends of its edge, in the order next, prev of the first corner that
-/// faces the edge, and kNone; or the three corners of its face for a centre.
+/// Parents of each new vertex: the ends of its edge, in the order next, prev of the first corner
+/// that faces the edge, and kNone; or the three corners of its face for a centre.
 /// #(V_j - V_{j-1}) by 3.
 using Parents = std::vector<std::array<Index, 3>>;
 Parents parentsOf(const CornerTable& parent, const Refinement& refinement);
@@ -19,43 +19,40 @@ Parents parentsOf(const CornerTable& parent, const Refinement& refinement);
 /// alpha[e] * detail[child] to vertex[e], e in begin[child] .. begin[child + 1].
 struct UpdateWeights
 {
-	std::vector<Index>        begin; ///< #(children + 1); empty: lifting is off
-	std::vector<Index>        vertex;
+	std::vector<Index> begin; ///< #(children + 1); empty: lifting is off
+	std::vector<Index> vertex;
 	std::vector<std::int32_t> alpha;
 };
 
 /// Weights of the k-disc update: alpha minimises |I[T,H] alpha - b|, H the parents dilated k times,
-/// T = H and its neighbours, I the Gram matrix of the coarse hat functions on faces weighted by their
-/// number of descendants, b the inner products of the child's fine hat with the coarse hats.
+/// T = H and its neighbours, I the Gram matrix of the coarse hat functions on faces weighted by
+/// their number of descendants, b the inner products of the child's fine hat with the coarse hats.
 ///
 /// @param disc  kLiftingOff, or k, 0..2
 /// Cost O(1) a child.
 UpdateWeights updateWeights(
-	const CornerTable& parent,
-	const Refinement&  refinement,
-	const Parents&     parents,
-	int                disc);
+    const CornerTable& parent, const Refinement& refinement, const Parents& parents, int disc);
 
 /// Splits positions of level j into those of level j-1 and details.
 ///
 /// Source: (23) predict, D = floor(B_lazy C), then (24) update, C' = A_lazy C + floor(alpha D).
-/// @param positions  [in,out] #V_j by 3, lattice units; on return the first #V_{j-1} rows are level j-1
+/// @param positions  [in,out] #V_j by 3, lattice units; on return the first #V_{j-1} rows are level
+/// j-1
 /// @return details, #(V_j - V_{j-1}) by 3, lattice units
 /// Arithmetic modulo 2^32. @post synthesise() restores `positions` exactly.
-std::vector<LatticePoint> analyse(
-	const Parents&             parents,
-	const UpdateWeights&       weights,
-	std::vector<LatticePoint>& positions);
+std::vector<LatticePoint>
+analyse(const Parents& parents, const UpdateWeights& weights, std::vector<LatticePoint>& positions);
 
 /// Inverse of analyse(), (25).
 /// @param positions  [in,out] the first #V_{j-1} rows are level j-1; on return #V_j rows, level j
 void synthesise(
-	const Parents&                   parents,
-	const UpdateWeights&             weights,
-	const std::vector<LatticePoint>& details,
-	std::vector<LatticePoint>&       positions);
+    const Parents& parents,
+    const UpdateWeights& weights,
+    const std::vector<LatticePoint>& details,
+    std::vector<LatticePoint>& positions);
 
 /// ceil of the parents' mean: the prediction of a child.
-LatticePoint middle(const std::vector<LatticePoint>& positions, const std::array<Index, 3>& parents);
+LatticePoint
+middle(const std::vector<LatticePoint>& positions, const std::array<Index, 3>& parents);
 
 } // namespace wavemesh

@@ -4,13 +4,13 @@
 namespace wavemesh {
 namespace {
 
-constexpr Index       kMaxValence = 256; ///< a child next to a larger hub does not update
+constexpr Index kMaxValence       = 256; ///< a child next to a larger hub does not update
 constexpr std::size_t kMaxSupport = 48;  ///< vertices of H, the nearest first
-constexpr int         kSweeps     = 16;  ///< of Gauss-Seidel
+constexpr int kSweeps             = 16;  ///< of Gauss-Seidel
 
 struct Entry
 {
-	Index        vertex;
+	Index vertex;
 	std::int64_t value;
 };
 
@@ -18,8 +18,9 @@ class Solver
 {
 public:
 	Solver(const CornerTable& parent, const Refinement& r) :
-			parent_(parent), r_(r), first_(firstCorners(parent)), valence_(valences(parent)),
-			weight_(parent.faceCount()), local_(parent.vertexCount, kNone), dense_(parent.vertexCount, 0)
+	        parent_(parent), r_(r), first_(firstCorners(parent)), valence_(valences(parent)),
+	        weight_(parent.faceCount()), local_(parent.vertexCount, kNone),
+	        dense_(parent.vertexCount, 0)
 	{
 		for (Index f = 0; f < parent.faceCount(); ++f)
 			weight_[f] = r.faceCode[f] == kFaceCentre ? 3 : 1 + faceShape(r.childOnEdge, f).splits;
@@ -42,11 +43,11 @@ public:
 	}
 
 private:
-	template<class Visit>
+	template <class Visit>
 	void forRing(Index v, const Visit& visit) const
 	{
 		const Index begin = first_[v];
-		Index       c     = begin;
+		Index c           = begin;
 		do {
 			visit(c, false);
 			const Index left = parent_.swingLeft(c);
@@ -62,7 +63,7 @@ private:
 		support_.clear();
 		include(parent_.vertex[nextCorner(c)]);
 		include(parent_.vertex[prevCorner(c)]);
-		bool        hub = tooLarge(support_[0]) || tooLarge(support_[1]);
+		bool hub          = tooLarge(support_[0]) || tooLarge(support_[1]);
 		std::size_t begin = 0;
 		for (int k = 0; k < disc && !hub; ++k) {
 			const std::size_t end = support_.size();
@@ -100,8 +101,8 @@ private:
 			}
 			const Index right = parent_.opposite[prevCorner(c)];
 			row.push_back(
-				{parent_.vertex[nextCorner(c)],
-				 std::int64_t(weight_[c / 3]) + (right == kNone ? 0 : weight_[right / 3])});
+			    {parent_.vertex[nextCorner(c)],
+			     std::int64_t(weight_[c / 3]) + (right == kNone ? 0 : weight_[right / 3])});
 			diagonal += 2 * weight_[c / 3];
 		});
 		row.push_back({v, diagonal});
@@ -113,7 +114,7 @@ private:
 		targets.clear();
 		const Index a = parent_.vertex[nextCorner(c)], b = parent_.vertex[prevCorner(c)];
 		std::int64_t sumA = 0, sumB = 0;
-		const Index  d    = parent_.opposite[c];
+		const Index d = parent_.opposite[c];
 		for (const Index side : {c, d}) {
 			if (side == kNone)
 				continue;
@@ -134,18 +135,18 @@ private:
 	};
 	Products productsOfSide(Index c) const
 	{
-		const Index     face  = c / 3;
+		const Index face      = c / 3;
 		const FaceShape shape = faceShape(r_.childOnEdge, face);
 		if (shape.splits == 1)
 			return {6, 6, 4};
 		if (shape.splits == 3)
 			return {10, 10, 4};
-		// 1:3. The corner face lies at the vertex both split edges share; the diagonal starts at this
-		// child or at the other one.
-		const bool diagonal1   = r_.faceCode[face] == kFaceDiagonal1;
+		// 1:3. The corner face lies at the vertex both split edges share; the diagonal starts at
+		// this child or at the other one.
+		const bool diagonal1    = r_.faceCode[face] == kFaceDiagonal1;
 		const bool cornerAtPrev = prevCorner(c) == shape.corner; // shared vertex is prev of c
-		const bool mine        = cornerAtPrev ? !diagonal1 : diagonal1;
-		const Products atNext  = mine ? Products {10, 8, 6} : Products {8, 6, 2};
+		const bool mine         = cornerAtPrev ? diagonal1 : !diagonal1;
+		const Products atNext   = mine ? Products {10, 8, 6} : Products {8, 6, 2};
 		return cornerAtPrev ? Products {atNext.prev, atNext.next, atNext.apex} : atNext;
 	}
 
@@ -190,26 +191,23 @@ private:
 			}
 	}
 
-	const CornerTable&        parent_;
-	const Refinement&         r_;
-	std::vector<Index>        first_, valence_;
+	const CornerTable& parent_;
+	const Refinement& r_;
+	std::vector<Index> first_, valence_;
 	std::vector<std::int32_t> weight_; ///< #faces: number of descendants
-	std::vector<Index>        local_;  ///< #V: place in support_, kNone elsewhere
+	std::vector<Index> local_;         ///< #V: place in support_, kNone elsewhere
 	std::vector<std::int64_t> dense_;  ///< #V: scratch, zero between uses
 
-	std::vector<Index>              support_;
+	std::vector<Index> support_;
 	std::vector<std::vector<Entry>> rows_;
-	std::vector<Entry>              targets_;
-	std::vector<std::int64_t>       normal_, right_, alpha_;
+	std::vector<Entry> targets_;
+	std::vector<std::int64_t> normal_, right_, alpha_;
 };
 
 } // namespace
 
 UpdateWeights updateWeights(
-	const CornerTable& parent,
-	const Refinement&  refinement,
-	const Parents&     parents,
-	int                disc)
+    const CornerTable& parent, const Refinement& refinement, const Parents& parents, int disc)
 {
 	UpdateWeights out;
 	if (disc < 0)
