@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the public interface promises besides the mesh: refusals, progress, limits.
+#include "allocation_watch.h"
+#include "codec_check.h"
+#include "container/container.h"
+#include "mesh_families.h"
+#include "wmc_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace wavemesh::test {
+namespace {
+
+StatusCode codeOf(const MeshData& mesh, const EncodeOptions& o = {})
+{
+	const auto file = encode(mesh, o);
+	if (!file.ok()) {
+		EXPECT_FALSE(file.hasValue());
+		EXPECT_FALSE(file.status().what.empty());
+	}
+	return file.status().code;
+}
+
+TEST(Encode, RefusesOptionsOutOfRange)
+{
+	const MeshData mesh = makeTetrahedron();
+	const auto with     = [&](auto set) {
+        EncodeOptions o;
+        set(o);
+        return codeOf(mesh, o);
+	};
+	constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+	for (const int bits : {0, -3, 25, 64})
+		EXPECT_EQ(with([&](auto& o) { o.bits = bits; }), StatusCode::InvalidArgument) << bits;
+	for (const int lifting : {-2, 3})
+		EXPECT_EQ(with([&](auto& o) { o.lifting = lifting; }), StatusCode::InvalidArgument);
+	for (const double step : {-1.0, kNaN, 1e-12})
+		EXPECT_EQ(with([&](auto& o) { o.step = step; }), StatusCode::InvalidArgument) << step;
+	for (const double x : {-0.1, 1.1, kNaN})
+		EXPECT_EQ(with([&](auto& o) { o.wgcSharpness = x; }), StatusCode::InvalidArgument) << x;
+	for (const double x : {0.0, -1.0, kNaN})
+		EXPECT_EQ(with([&](auto& o) { o.wgcDeviation = x; }), StatusCode::InvalidArgument) << x;
+	EXPECT_EQ(with([](auto& o) { o.mode = static_cast<Mode>(7); }), StatusCode::InvalidArgument);
+	EXPECT_EQ(with([](auto&) {}), StatusCode::Ok);
+}
+
+TEST(Encode, RefusesWhatIsNoManifoldAndNamesIt)
+{
+	MeshData m = makeTetrahedron();
+	EXPECT_EQ(codeOf({}), StatusCode::Unsupported);
+	EXPECT_EQ(codeOf({m.positions, {}}), StatusCode::Unsupported) << "no faces";
+	m.triangles[2][1] = 99;
+	EXPECT_EQ(codeOf(m), StatusCode::InvalidArgument);
+	m                  = makeTetrahedron();
+	m.positions[3][2]  = std::numeric_limits<double>::infinity();
+	EXPECT_EQ(codeOf(m), StatusCode::InvalidArgument);
+	m = makeTetrahedron();
+	m.positions.push_back({9, 9, 9});
+	EXPECT_EQ(codeOf(m), StatusCode::Unsupported);
+	EXPECT_NE(encode(m).status().what.find("vertex 4"), std::string::npos) << "isolated";
+	m = makeTetrahedron();
+	m.triangles.push_back(m.triangles[0]);
+	EXPECT_EQ(codeOf(m), StatusCode::Unsupported);
+	EXPECT_NE(encode(m).status().what.find("edge"), std::string::npos);
+	m = makeTetrahedron();
+	std::swap(m.triangles[1][0], m.triangles[1][1]);
+	EXPECT_EQ(codeOf(m), StatusCode::Unsupported) << "orientation";
+}
+
+TEST(Encode, NeverModifiesItsInput)
+{
+	const MeshData mesh = makeFlippedSphere(100, 121), copy = mesh;
+	ASSERT_TRUE(encode(mesh).ok());
+	EXPECT_EQ(mesh.positions, copy.positions);
+	EXPECT_EQ(mesh.triangles, copy.triangles);
+}
+
+TEST(Encode, WgcAuto_IsTheSmallerOfBoth)
+{
+	for (const MeshData& mesh : {makeStarPrism(16, 20), makeBumpySphere(400, 122), makeHoledPlate(2, 4)}) {
+		EncodeOptions o;
+		const auto size = [&](Wgc wgc) {
+			o.wgc = wgc;
+			return encode(mesh, o)->bytes.size();
+		};
+		const std::size_t off = size(Wgc::Off), on = size(Wgc::On);
+		EXPECT_EQ(size(Wgc::Auto), std::min(off, on));
+	}
+}
+
+TEST(Encode, SameInput_GivesTheSameBytes)
+{
+	const MeshData mesh = makeTerrain(600, 123);
+	EXPECT_EQ(encode(mesh)->bytes, encode(mesh)->bytes);
+}
+
+// ---- progress -------------------------------------------------------------------------------------
+
+TEST(Progress, OfEncode_IsMonotoneFrom0To1)
+{
+	for (const Wgc wgc : {Wgc::Off, Wgc::On, Wgc::Auto}) {
+		EncodeOptions o;
+		o.wgc         = wgc;
+		double before = 0;
+		int calls     = 0;
+		o.progress    = [&](double fraction) {
+            EXPECT_GE(fraction, before - 1e-12);
+            EXPECT_LE(fraction, 1 + 1e-12);
+            before = fraction;
+            ++calls;
+            return true;
+		};
+		ASSERT_TRUE(encode(makeBumpySphere(1500, 124), o).ok());
+		EXPECT_GE(calls, 5);
+		EXPECT_GT(before, 0.9);
+	}
+}
+
+TEST(Progress, CancelsEncodeAtEveryCall)
+{
+	const MeshData mesh = makeBumpySphere(400, 125);
+	const auto whole    = encode(mesh)->bytes;
+	for (int limit = 0;; ++limit) {
+		ASSERT_LT(limit, 1000);
+		EncodeOptions o;
+		int calls       = 0;
+		o.progress      = [&](double) { return calls++ < limit; };
+		const auto file = encode(mesh, o);
+		if (file.ok()) {
+			EXPECT_EQ(file->bytes, whole);
+			EXPECT_GT(limit, 5);
+			break;
+		}
+		ASSERT_EQ(file.status().code, StatusCode::Cancelled);
+		ASSERT_FALSE(file.hasValue());
+		ASSERT_EQ(calls, limit + 1) << "asked again after it was told to stop";
+	}
+}
+
+TEST(Progress, OfDecode_IsMonotoneAndCancels)
+{
+	const auto file = encode(makeBumpySphere(400, 126));
+	for (int limit = 0;; ++limit) {
+		ASSERT_LT(limit, 1000);
+		DecodeOptions o;
+		int calls     = 0;
+		double before = 0;
+		o.progress    = [&](double fraction) {
+            EXPECT_GE(fraction, before);
+            EXPECT_LE(fraction, 1);
+            before = fraction;
+            return calls++ < limit;
+		};
+		const auto back = decode(file->bytes.data(), file->bytes.size(), o);
+		if (back.ok()) {
+			EXPECT_GE(limit, static_cast<int>(file->info.levels.size()) - 1);
+			break;
+		}
+		ASSERT_EQ(back.status().code, StatusCode::Cancelled);
+		ASSERT_FALSE(back.hasValue());
+	}
+}
+
+// ---- limits ---------------------------------------------------------------------------------------
+
+TEST(DecodeLimits, RefuseMoreVerticesOrFacesThanAllowed)
+{
+	const auto file = encode(makeTorus(12, 9));
+	const auto code = [&](std::uint64_t vertices, std::uint64_t faces) {
+		DecodeOptions o;
+		o.limits.maxVertices = vertices;
+		o.limits.maxFaces    = faces;
+		const auto back      = decode(file->bytes.data(), file->bytes.size(), o);
+		const auto opened    = Decoder::open(file->bytes.data(), file->bytes.size(), o.limits);
+		EXPECT_EQ(back.status().code, opened.status().code);
+		EXPECT_EQ(back.hasValue(), back.ok());
+		return back.status().code;
+	};
+	EXPECT_EQ(code(108, 216), StatusCode::Ok);
+	EXPECT_EQ(code(107, 216), StatusCode::LimitExceeded);
+	EXPECT_EQ(code(108, 215), StatusCode::LimitExceeded);
+	EXPECT_EQ(code(0, 0), StatusCode::LimitExceeded);
+}
+
+/// A file that declares a huge mesh and holds little more than that.
+Bytes hugeFile(std::uint32_t vertices, std::uint32_t faces, const Bytes& payload)
+{
+	Head h;
+	h.lattice.bits = 12;
+	h.lattice.step = 0.5;
+	LevelRow row;
+	row.vertices  = vertices;
+	row.faces     = faces;
+	row.bytes     = static_cast<std::uint32_t>(payload.size());
+	row.endsChunk = true;
+	h.rows.push_back(row);
+	Bytes file;
+	writeHead(h, file);
+	writeChunk(kLevelChunk, payload, file);
+	return file;
+}
+
+constexpr std::size_t kLittle = 16u << 20; ///< bytes: the decoder's models take a few megabytes
+
+TEST(DecodeLimits, RefuseBeforeMemoryIsTaken)
+{
+	const Bytes file = hugeFile(500'000'000, 600'000'000, {1, 2, 3});
+	AllocationWatch watch;
+	EXPECT_EQ(decode(file.data(), file.size()).status().code, StatusCode::LimitExceeded);
+	EXPECT_LT(watch.peak(), kLittle);
+}
+
+TEST(DecodeLimits, ADeclaredButAbsentMesh_TakesNoMemory)
+{
+	// Within the limits, but the bytes for it are not there.
+	for (const std::uint8_t fill : {std::uint8_t {0}, std::uint8_t {0x55}, std::uint8_t {255}}) {
+		const Bytes file = hugeFile(190'000'000, 380'000'000, Bytes(200, fill));
+		AllocationWatch watch;
+		const auto back = decode(file.data(), file.size());
+		EXPECT_FALSE(back.ok());
+		EXPECT_FALSE(back.hasValue());
+		EXPECT_LT(watch.peak(), kLittle) << int(fill);
+	}
+}
+
+TEST(DecodeLimits, OnADeclaredButAbsentSplit_TakeNoMemory)
+{
+	// A true base mesh; behind it a level that claims the most a split can give, again and again.
+	const auto file = encode(makeTetrahedron());
+	std::size_t end = 0;
+	Head head       = *readHead(file->bytes.data(), file->bytes.size(), end);
+	ASSERT_EQ(head.rows.size(), 1u);
+	const ChunkPlace base = chunksOf(file->bytes)[1];
+	LevelRow row          = head.rows[0];
+	while (row.faces < 300'000'000 / 4) {
+		row.kind = LevelKind::Split;
+		row.vertices += 3 * row.faces / 2;
+		row.faces *= 4;
+		row.bytes = row.connectivityBytes = 0;
+		head.rows.push_back(row);
+	}
+	Bytes lie;
+	writeHead(head, lie);
+	lie.insert(
+	    lie.end(), file->bytes.begin() + static_cast<std::ptrdiff_t>(base.begin), file->bytes.end());
+	AllocationWatch watch;
+	const auto back = decode(lie.data(), lie.size());
+	EXPECT_EQ(back.status().code, StatusCode::Truncated) << back.status().what;
+	EXPECT_LT(watch.peak(), kLittle);
+}
+
+TEST(Decoder, AdvancePastTheFinest_IsTheCallersMistake)
+{
+	const auto file = encode(makeIcosphere(3));
+	auto decoder    = Decoder::open(file->bytes.data(), file->bytes.size());
+	ASSERT_TRUE(decoder.ok());
+	EXPECT_EQ(decoder->level(), -1);
+	while (decoder->level() < decoder->info().finestLevel())
+		ASSERT_TRUE(decoder->advance().ok());
+	const MeshData finest = decoder->mesh();
+	EXPECT_EQ(decoder->advance().code, StatusCode::InvalidArgument);
+	EXPECT_EQ(decoder->mesh().positions, finest.positions);
+	Decoder moved = std::move(*decoder);
+	EXPECT_EQ(moved.level(), moved.info().finestLevel());
+}
+
+} // namespace
+} // namespace wavemesh::test

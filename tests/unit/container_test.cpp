@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bytes, chunks, head and level table.
+#include "codec_check.h"
+#include "container/byte_io.h"
+#include "container/container.h"
+#include "mesh_families.h"
+#include "rng.h"
+#include "wmc_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace wavemesh::test {
+namespace {
+
+TEST(ByteIo, WhatIsWrittenIsRead)
+{
+	ByteWriter out;
+	const std::uint64_t numbers[] = {0,        1,           127,         128,        16383,
+	                                 16384,    0xffffffffu, 0x100000000, 1ull << 56, (1ull << 63) - 1};
+	const double reals[] = {0, -0.0, 1, -1e300, 1e-310, 0.1, std::numeric_limits<double>::infinity()};
+	for (const std::uint64_t x : numbers)
+		out.varint(x);
+	for (const std::uint64_t x : numbers)
+		out.fixed(x);
+	for (const double x : reals) {
+		out.real64(x);
+		out.real32(x);
+	}
+	out.fixed(std::uint8_t {200});
+	ByteReader in(out.bytes.data(), out.bytes.size());
+	for (const std::uint64_t x : numbers) {
+		std::uint64_t read = 1;
+		in.varint(read);
+		EXPECT_EQ(read, x);
+	}
+	for (const std::uint64_t x : numbers) {
+		std::uint64_t read = 1;
+		in.fixed(read);
+		EXPECT_EQ(read, x);
+	}
+	for (const double x : reals) {
+		double wide = 2, narrow = 2;
+		in.real64(wide);
+		in.real32(narrow);
+		EXPECT_EQ(wide, x);
+		EXPECT_EQ(narrow, double(float(x)));
+	}
+	EXPECT_EQ(in.byte(), 200);
+	EXPECT_FALSE(in.failed());
+	EXPECT_EQ(in.position(), out.bytes.size());
+	EXPECT_EQ(in.byte(), 0);
+	EXPECT_TRUE(in.failed());
+}
+
+TEST(ByteIo, Varint_FailsForWhatDoesNotFitOrDoesNotEnd)
+{
+	const auto fails = [](const Bytes& bytes, auto value) {
+		ByteReader in(bytes.data(), bytes.size());
+		in.varint(value);
+		return in.failed();
+	};
+	EXPECT_FALSE(fails({0xff, 0x01}, std::uint8_t {}));
+	EXPECT_TRUE(fails({0x80, 0x02}, std::uint8_t {})) << "256";
+	EXPECT_FALSE(fails({0xff, 0xff, 0xff, 0xff, 0x0f}, std::uint32_t {}));
+	EXPECT_TRUE(fails({0xff, 0xff, 0xff, 0xff, 0x1f}, std::uint32_t {}));
+	EXPECT_TRUE(fails({0x80}, std::uint64_t {})) << "cut";
+	EXPECT_TRUE(fails({}, std::uint64_t {}));
+	EXPECT_TRUE(fails(Bytes(20, 0xff), std::uint64_t {})) << "endless";
+	EXPECT_TRUE(fails(Bytes(20, 0x80), std::uint64_t {})) << "endless zeros";
+}
+
+TEST(Checksum, IsXxh32)
+{
+	// From the specification of XXH32, seed 0.
+	const Bytes abc {'a', 'b', 'c'};
+	EXPECT_EQ(checksum(abc.data(), 0), 0x02cc5d05u);
+	EXPECT_EQ(checksum(abc.data(), 1), 0x550d7456u);
+	EXPECT_EQ(checksum(abc.data(), 3), 0x32d153ffu);
+}
+
+TEST(Chunk, OfAnyLengthComesBackAndEveryCutIsSeen)
+{
+	Rng rng(111);
+	for (const std::size_t size : {0u, 1u, 127u, 128u, 300u, 20000u}) {
+		Bytes payload(size), file {1, 2, 3};
+		for (auto& b : payload)
+			b = static_cast<std::uint8_t>(rng.next());
+		writeChunk('x', payload, file);
+		EXPECT_EQ(Bytes(file.begin() + 3, file.end()), makeChunk('x', payload));
+		const auto whole = readChunk(file.data(), file.size(), 3);
+		ASSERT_TRUE(whole.ok());
+		EXPECT_TRUE(whole->whole);
+		EXPECT_EQ(whole->type, 'x');
+		EXPECT_EQ(Bytes(whole->payload, whole->payload + whole->size), payload);
+		EXPECT_EQ(whole->end, file.size());
+		for (std::size_t n = 3; n < file.size(); n += 1 + n / 50) {
+			const ExactBuffer cut(file.data(), n);
+			const auto part = readChunk(cut.data(), n, 3);
+			if (!part.ok()) {
+				ASSERT_EQ(part.status().code, StatusCode::Truncated) << n;
+				continue;
+			}
+			ASSERT_FALSE(part->whole);
+			ASSERT_EQ(part->end, n);
+			ASSERT_LE(part->size, size);
+			ASSERT_LE(part->payload + part->size, cut.data() + n);
+		}
+	}
+}
+
+TEST(Chunk, OfAbsurdLength_IsCutNotRead)
+{
+	Bytes file {'L'};
+	ByteWriter out;
+	out.varint(~std::uint64_t {0} >> 1);
+	file.insert(file.end(), out.bytes.begin(), out.bytes.end());
+	file.push_back(7);
+	const ExactBuffer exact(file.data(), file.size());
+	const auto chunk = readChunk(exact.data(), exact.size(), 0);
+	if (chunk.ok()) {
+		EXPECT_FALSE(chunk->whole);
+		EXPECT_EQ(chunk->size, 1u);
+	}
+}
+
+Head someHead(std::uint64_t seed)
+{
+	Rng rng(seed);
+	Head h;
+	h.lifting      = static_cast<int>(rng.below(4)) - 1;
+	h.wgc          = rng.below(2) == 1;
+	h.lattice.bits = 1 + static_cast<int>(rng.below(24));
+	h.lattice.step = rng.below(2) ? 0.25 : rng.unit() * 1e-5;
+	for (double& x : h.lattice.origin)
+		x = rng.below(2) ? -3.5 : rng.between(-1e9, 1e9);
+	h.digest = static_cast<std::uint32_t>(rng.next());
+	LevelRow row;
+	row.vertices = 3 + rng.below(10);
+	row.faces    = 1 + rng.below(2 * row.vertices);
+	row.faces    = std::max(row.faces, row.vertices / 3 + 1);
+	const std::uint32_t levels = 1 + rng.below(20);
+	for (std::uint32_t i = 0; i < levels; ++i) {
+		row.kind              = i == 0 ? LevelKind::Base : LevelKind::Split;
+		row.bytes             = rng.below(1000);
+		row.connectivityBytes = rng.below(row.bytes + 1);
+		row.errorCode         = static_cast<std::uint8_t>(i + 1 == levels ? 0 : rng.below(256));
+		row.endsChunk         = i + 1 == levels || rng.below(2) == 1;
+		h.rows.push_back(row);
+		if (row.faces < 1000000) {
+			const std::uint32_t more = 1 + rng.below(row.faces);
+			row.vertices += more;
+			row.faces += std::min(2 * more, 3 * row.faces);
+		}
+	}
+	return h;
+}
+
+TEST(Head, EveryFieldComesBack)
+{
+	for (std::uint64_t seed = 0; seed < 300; ++seed) {
+		const Head h = someHead(seed);
+		Bytes file;
+		writeHead(h, file);
+		std::size_t end = 0;
+		const auto read = readHead(file.data(), file.size(), end);
+		ASSERT_TRUE(read.ok()) << seed << ": " << read.status().what;
+		EXPECT_EQ(end, file.size());
+		EXPECT_EQ(read->major, kVersionMajor);
+		EXPECT_EQ(read->minor, kVersionMinor);
+		EXPECT_EQ(read->mode, h.mode);
+		EXPECT_EQ(read->lifting, h.lifting);
+		EXPECT_EQ(read->wgc, h.wgc);
+		EXPECT_EQ(read->lattice.bits, h.lattice.bits);
+		EXPECT_EQ(read->lattice.step, h.lattice.step);
+		EXPECT_EQ(read->lattice.origin, h.lattice.origin);
+		EXPECT_EQ(read->digest, h.digest);
+		ASSERT_EQ(read->rows.size(), h.rows.size());
+		for (std::size_t i = 0; i < h.rows.size(); ++i) {
+			const LevelRow &a = h.rows[i], &b = read->rows[i];
+			EXPECT_EQ(b.kind, a.kind);
+			EXPECT_EQ(b.vertices, a.vertices);
+			EXPECT_EQ(b.faces, a.faces);
+			EXPECT_EQ(b.bytes, a.bytes);
+			EXPECT_EQ(b.connectivityBytes, a.connectivityBytes);
+			EXPECT_EQ(b.errorCode, a.errorCode) << seed << ' ' << i;
+			EXPECT_EQ(b.endsChunk, a.endsChunk);
+		}
+	}
+}
+
+StatusCode codeOf(const Head& h)
+{
+	Bytes file;
+	writeHead(h, file);
+	std::size_t end = 0;
+	return readHead(file.data(), file.size(), end).status().code;
+}
+
+TEST(Head, WithALevelThatASplitCannotGive_IsCorrupt)
+{
+	Head good = someHead(1);
+	while (good.rows.size() < 2)
+		good = someHead(good.digest);
+	ASSERT_EQ(codeOf(good), StatusCode::Ok);
+	Head h                = good;
+	h.rows.back().faces   = 4 * h.rows[h.rows.size() - 2].faces + 1;
+	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "more than four descendants a face";
+	h                     = good;
+	h.rows[0].vertices    = 3 * h.rows[0].faces + 1;
+	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "more vertices than corners in the base";
+	h                       = good;
+	h.rows.back().endsChunk = false;
+	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "the last chunk is open";
+	h                              = good;
+	h.rows.back().connectivityBytes = h.rows.back().bytes + 1;
+	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "a part larger than the whole";
+}
+
+TEST(Head, WithAFrameThatIsNotALattice_IsCorrupt)
+{
+	const double bad[] = {
+	    std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
+	for (const double x : bad) {
+		Head h           = someHead(2);
+		h.lattice.step   = x;
+		EXPECT_EQ(codeOf(h), StatusCode::Corrupt);
+		h                = someHead(2);
+		h.lattice.origin = {0, x, 0};
+		EXPECT_EQ(codeOf(h), StatusCode::Corrupt);
+	}
+	for (const double x : {0.0, -1.0}) {
+		Head h         = someHead(2);
+		h.lattice.step = x;
+		EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << x;
+	}
+}
+
+// ---- versions and unknown chunks ----------------------------------------------------------------
+
+class WholeFile : public testing::Test
+{
+protected:
+	void SetUp() override
+	{
+		mesh_   = makeFlippedSphere(110, 15);
+		file_   = encode(mesh_)->bytes;
+		chunks_ = chunksOf(file_);
+		ASSERT_GE(chunks_.size(), 2u);
+	}
+	Bytes withChunkAt(std::size_t at, std::uint8_t type, const Bytes& payload) const
+	{
+		Bytes changed     = file_;
+		const Bytes chunk = makeChunk(type, payload);
+		changed.insert(
+		    changed.begin() + static_cast<std::ptrdiff_t>(at), chunk.begin(), chunk.end());
+		return changed;
+	}
+	static Result<DecodedMesh> decoded(const Bytes& file)
+	{
+		const ExactBuffer exact(file.data(), file.size());
+		return decode(exact.data(), exact.size());
+	}
+
+	MeshData mesh_;
+	Bytes file_;
+	std::vector<ChunkPlace> chunks_;
+};
+
+TEST_F(WholeFile, UnknownAncillaryChunk_IsSkippedWhereverItStands)
+{
+	for (const ChunkPlace& c : chunks_)
+		for (const Bytes& payload : {Bytes {}, Bytes {1, 2, 3}, Bytes(1000, 7)}) {
+			const auto back = decoded(withChunkAt(c.end, 'q', payload));
+			ASSERT_TRUE(back.ok()) << back.status().what;
+			EXPECT_EQ(back->mesh.triangles, decoded(file_)->mesh.triangles);
+		}
+}
+
+TEST_F(WholeFile, UnknownCriticalChunk_IsRefused)
+{
+	for (const std::uint8_t type : {'Q', 'A', 'Z', 'H', '@', '\0', '\xff'}) {
+		const auto back = decoded(withChunkAt(chunks_[0].end, static_cast<std::uint8_t>(type), {1, 2}));
+		EXPECT_EQ(back.status().code, StatusCode::Corrupt) << int(type);
+		EXPECT_FALSE(back.hasValue());
+	}
+}
+
+TEST_F(WholeFile, DamagedAncillaryChunk_IsNotSkipped)
+{
+	Bytes changed = withChunkAt(chunks_[0].end, 'q', {1, 2, 3});
+	changed[chunks_[0].end + 3] ^= 1;
+	EXPECT_EQ(decoded(changed).status().code, StatusCode::ChecksumMismatch);
+}
+
+TEST_F(WholeFile, NewerMajorVersion_IsRefusedWhateverTheHeadLooksLike)
+{
+	Bytes changed                = file_;
+	changed[chunks_[0].payload] = 1;
+	mendChecksum(changed, chunks_[0]);
+	EXPECT_EQ(decoded(changed).status().code, StatusCode::VersionTooNew);
+	EXPECT_EQ(readInfo(changed.data(), changed.size()).status().code, StatusCode::VersionTooNew);
+	Bytes other(file_.begin(), file_.begin() + 8);
+	const Bytes head = makeChunk('H', {9, 0, 1, 2, 3});
+	other.insert(other.end(), head.begin(), head.end());
+	EXPECT_EQ(decoded(other).status().code, StatusCode::VersionTooNew);
+}
+
+TEST_F(WholeFile, ForeignData_IsNotWmc)
+{
+	EXPECT_EQ(decode(nullptr, 0).status().code, StatusCode::NotWmc);
+	for (const std::string text : {"ply\nformat ascii 1.0\n", "x", "\x89PNG\r\n\x1a\n", "OFF"}) {
+		const Bytes bytes(text.begin(), text.end());
+		EXPECT_EQ(decoded(bytes).status().code, StatusCode::NotWmc) << text;
+	}
+}
+
+TEST_F(WholeFile, TextModeTransfer_IsCorruptNotForeign)
+{
+	Bytes unixed, stripped = file_;
+	for (std::size_t i = 0; i < file_.size(); ++i)
+		if (!(file_[i] == '\r' && file_[i + 1] == '\n'))
+			unixed.push_back(file_[i]);
+	for (auto& b : stripped)
+		b &= 0x7f;
+	for (const Bytes& bytes : {unixed, stripped}) {
+		const Status s = decoded(bytes).status();
+		EXPECT_EQ(s.code, StatusCode::Corrupt);
+		EXPECT_NE(s.what.find("text mode"), std::string::npos) << s.what;
+	}
+}
+
+TEST_F(WholeFile, BytesBehindTheEnd_AreIgnored)
+{
+	Bytes longer = file_;
+	longer.insert(longer.end(), 100, 0xaa);
+	const auto back = decoded(longer);
+	ASSERT_TRUE(back.ok()) << back.status().what;
+	EXPECT_EQ(back->mesh.positions, decoded(file_)->mesh.positions);
+}
+
+// ---- the error figure -----------------------------------------------------------------------------
+
+TEST(ErrorCode, IsMonotone)
+{
+	int before = 0;
+	for (std::uint64_t sum = 0; sum < (std::uint64_t {1} << 63); sum += 1 + sum / 40) {
+		const int code = errorCode(sum, 1000);
+		ASSERT_GE(code, before) << sum;
+		before = code;
+	}
+	for (int code = 1; code < 256; ++code)
+		ASSERT_GT(errorFromCode(std::uint8_t(code)), errorFromCode(std::uint8_t(code - 1)));
+	EXPECT_EQ(errorCode(0, 1000), 0);
+	EXPECT_EQ(errorFromCode(0), 0);
+	EXPECT_GT(errorCode(1, 1u << 31), 0) << "not exactly none is not none";
+}
+
+TEST(ErrorCode, IsTheRootMeanSquareWithinASixteenth)
+{
+	// Three bits of mantissa, cut: the mean square is low by less than 1/8, its root by 1/16.
+	Rng rng(112);
+	for (int i = 0; i < 20000; ++i) {
+		const std::uint64_t count = 1 + rng.below(1000000);
+		const std::uint64_t sum   = count / 8 + (rng.next() >> (20 + rng.below(30)));
+		const double truth        = std::sqrt(double(sum) / double(count));
+		if (truth > 7900 || truth < 0.3) // above, the code is full
+			continue;
+		const double said = errorFromCode(errorCode(sum, count));
+		ASSERT_LE(said, truth * (1 + 1e-12)) << sum << ' ' << count;
+		ASSERT_GE(said, truth * (1 - 1.0 / 16 - 0.01)) << sum << ' ' << count;
+	}
+}
+
+TEST(ErrorCode, OfSumsThatDoNotFit_IsTheLargest)
+{
+	EXPECT_EQ(errorCode(~std::uint64_t {0}, 1), 255);
+	EXPECT_TRUE(std::isfinite(errorFromCode(255)));
+}
+
+TEST(ErrorFigure, OfALevel_IsTheRootMeanSquareOfTheDetailsItLacks)
+{
+	EncodeOptions o;
+	o.lifting       = kLiftingOff; // then a detail is a vertex less the middle of its parents
+	const auto file = encode(makeBumpySphere(400, 113), o);
+	const auto& levels = file->info.levels;
+	ASSERT_GE(levels.size(), 3u);
+	for (std::size_t j = 0; j + 1 < levels.size(); ++j) {
+		// The prefix that ends with the connectivity of level j + 1 puts new vertices on the middles.
+		EXPECT_GT(levels[j].error, 0);
+		EXPECT_GE(levels[j].error, levels[j + 1].error);
+	}
+	EXPECT_EQ(levels.back().error, 0);
+	EXPECT_LT(levels[0].error, 3) << "model units: the sphere has the radius one";
+}
+
+} // namespace
+} // namespace wavemesh::test
