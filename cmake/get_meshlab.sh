@@ -195,7 +195,11 @@ get_meshlab_2022() {
 # Sources are compiled several at a time and with -O1, which takes a third of the time; should a
 # MeshLab not be fit for that, one at a time.
 run_ninja_on_meshlab() {
-	if ! ninja -C "$meshlab_build" "$@"; then
+	local status=0
+	ninja -C "$meshlab_build" "$@" || status=$?
+	if ((status == 130)); then
+		return $status # interrupted
+	elif ((status != 0)); then
 		echo "Once more, one source at a time."
 		cmake -DCMAKE_UNITY_BUILD=OFF "$meshlab_build"
 		ninja -C "$meshlab_build" "$@"
