@@ -126,7 +126,7 @@ TEST_F(WmcTest, StandardOutputThatCannotBeWrittenIsNotSilent)
 TEST_F(WmcTest, ProgressIsShownOnATerminalOnly)
 {
 	writeObj(path("a.obj"), makeBumpySphere(1500, 1));
-	const std::vector<std::string> work = {"report", path("a.obj"), "--samples", "200000"};
+	const std::vector<std::string> work = {"report", path("a.obj"), "--samples", "100000"};
 	RunLimits terminal;
 	terminal.terminal    = true;
 	const RunResult seen = runWmc(work, terminal);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -37,17 +38,39 @@ std::uint64_t peakResidentBytes()
 	return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-Measured measureHere(int runs, const std::function<bool()>& work)
+void giveBackFreeMemory()
+{
+#ifdef __GLIBC__
+	::malloc_trim(0);
+#endif
+}
+
+double processorSeconds()
+{
+	struct timespec t
+	{
+	};
+	::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+	return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+Measured
+measureHere(int runs, const std::function<void()>& warmUp, const std::function<bool()>& work)
 {
 	Measured m;
+	warmUp();
+	giveBackFreeMemory(); // what was freed before must not be taken unseen
 	const std::uint64_t before = residentBytes();
 	for (int i = 0; i < runs; ++i) {
-		const auto begin = std::chrono::steady_clock::now();
+		const auto begin      = std::chrono::steady_clock::now();
+		const double cpuBegin = processorSeconds();
 		if (!work())
 			return {};
+		const double cpu = processorSeconds() - cpuBegin;
 		const double s =
 		    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-		m.seconds = i == 0 ? s : std::min(m.seconds, s);
+		m.seconds    = i == 0 ? s : std::min(m.seconds, s);
+		m.cpuSeconds = i == 0 ? cpu : std::min(m.cpuSeconds, cpu);
 		if (i == 0)
 			m.peakBytes = peakResidentBytes() - std::min(before, peakResidentBytes());
 	}
@@ -57,22 +80,19 @@ Measured measureHere(int runs, const std::function<bool()>& work)
 
 } // namespace
 
-Measured measureInChild(int runs, const std::function<bool()>& work)
+Measured
+measureInChild(int runs, const std::function<void()>& warmUp, const std::function<bool()>& work)
 {
 	int ends[2];
 	if (::pipe(ends) != 0)
 		throw Failure("cannot start a process to measure in");
 	std::fflush(nullptr);
-#ifdef __GLIBC__
-	// Memory that was freed before must not be taken unseen; and before the fork, because the
-	// child's peak begins with what it inherits.
-	::malloc_trim(0);
-#endif
+	giveBackFreeMemory(); // the child's peak begins with what it inherits
 	const pid_t child = ::fork();
 	if (child < 0)
 		throw Failure("cannot start a process to measure in");
 	if (child == 0) {
-		const Measured m   = measureHere(runs, work);
+		const Measured m   = measureHere(runs, warmUp, work);
 		const bool written = ::write(ends[1], &m, sizeof m) == sizeof m;
 		::_exit(written ? 0 : 1);
 	}

@@ -11,12 +11,15 @@ namespace wavemesh::tool {
 struct Measured
 {
 	bool ok                 = false;
-	double seconds          = 0; ///< best of the runs
+	double seconds          = 0; ///< on the clock, best of the runs
+	double cpuSeconds       = 0; ///< processor time, best of the runs: others do not slow it
 	std::uint64_t peakBytes = 0; ///< most memory held above what there was before
 };
 
-/// Runs `work` `runs` times in a child process. `work` returns false to give up. Its effects on
-/// memory are lost with the child.
-Measured measureInChild(int runs, const std::function<bool()>& work);
+/// Runs `work` `runs` times in a child process, after `warmUp`, which should touch the same code on
+/// next to no data: what it leaves is not counted as memory. `work` returns false to give up. What
+/// both do to memory is lost with the child.
+Measured
+measureInChild(int runs, const std::function<void()>& warmUp, const std::function<bool()>& work);
 
 } // namespace wavemesh::tool
