@@ -40,7 +40,7 @@ Distance distance(MeshLabHost& host, const MeshModel& a, const MeshModel& b, boo
 			 {"TargetMesh", QString::number(to->id())},
 			 {"SampleVert", "true"},
 			 {"SampleFace", atVertices ? "false" : "true"},
-			 {"SampleNum", QString::number(atVertices ? from->cm.vn : 20000)},
+			 {"SampleNum", QString::number(atVertices ? from->cm.vn : 5000)},
 			 {"MaxDist", QString::number(double(a.cm.bbox.Diag()))}});
 		d.rms = std::max(d.rms, results.at("RMS").toDouble() / double(a.cm.bbox.Diag()));
 		d.max = std::max(d.max, results.at("max").toDouble());
