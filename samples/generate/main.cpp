@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes the sample meshes, as binary PLY in single precision, into the folder given.
+// Writes the sample meshes, as binary PLY in single precision, into the folder given; or, with
+// numbers of vertices after the folder, a bumpy sphere of each size, to measure with.
 #include "mesh_check.h"
+#include "mesh_families.h"
 #include "shapes.h"
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 
@@ -65,11 +68,15 @@ std::string whatIsWrong(const MeshData& mesh)
 }
 
 bool write(
-    const std::string& folder, const char* name, const MeshData& mesh, const Colours& colours = {})
+    const std::string& folder,
+    const char* name,
+    const MeshData& mesh,
+    const Colours& colours = {},
+    bool wantArea          = true)
 {
 	wavemesh::test::Topology t;
 	std::string wrong = wavemesh::test::whatIsNotManifold(mesh, &t);
-	if (wrong.empty())
+	if (wrong.empty() && wantArea)
 		wrong = whatIsWrong(mesh);
 	if (!wrong.empty()) {
 		std::fprintf(stderr, "%s: %s\n", name, wrong.c_str());
@@ -90,23 +97,37 @@ bool write(
 	return true;
 }
 
+int writeSpheres(const std::string& folder, char** numbers, int count)
+{
+	for (int i = 0; i < count; ++i) {
+		const auto n           = static_cast<std::uint32_t>(std::strtoul(numbers[i], nullptr, 10));
+		const std::string name = "sphere_" + std::to_string(n) + ".ply";
+		// Faces without area are welcome here.
+		if (!write(folder, name.c_str(), wavemesh::test::makeBumpySphere(n, 1), {}, false))
+			return 1;
+	}
+	return 0;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
 	using namespace wavemesh::samples;
-	if (argc != 2) {
-		std::fprintf(stderr, "usage: generate_samples FOLDER\n");
+	if (argc < 2) {
+		std::fprintf(stderr, "usage: generate_samples FOLDER [VERTICES ...]\n");
 		return 2;
 	}
 	const std::string folder = argv[1];
-	const MeshData vase      = makeVase();
-	bool ok                  = write(folder, "blob.ply", makeBlob());
-	ok                       = write(folder, "bracket.ply", makeBracket()) && ok;
-	ok                       = write(folder, "island.ply", makeIsland()) && ok;
-	ok                       = write(folder, "pebble.ply", makePebble()) && ok;
-	ok                       = write(folder, "pieces.ply", makePieces()) && ok;
-	ok                       = write(folder, "pretzel.ply", makePretzel()) && ok;
-	ok                       = write(folder, "vase.ply", vase, vaseColours(vase)) && ok;
+	if (argc > 2)
+		return writeSpheres(folder, argv + 2, argc - 2);
+	const MeshData vase = makeVase();
+	bool ok             = write(folder, "blob.ply", makeBlob());
+	ok                  = write(folder, "bracket.ply", makeBracket()) && ok;
+	ok                  = write(folder, "island.ply", makeIsland()) && ok;
+	ok                  = write(folder, "pebble.ply", makePebble()) && ok;
+	ok                  = write(folder, "pieces.ply", makePieces()) && ok;
+	ok                  = write(folder, "pretzel.ply", makePretzel()) && ok;
+	ok                  = write(folder, "vase.ply", vase, vaseColours(vase)) && ok;
 	return ok ? 0 : 1;
 }
