@@ -143,18 +143,18 @@ std::uint8_t errorCode(std::uint64_t sum, std::uint64_t count)
 	const std::uint64_t mean =
 	    sum > (~std::uint64_t {0} >> 8) ? ~std::uint64_t {0} / count : (sum << 8) / count;
 	const int length = bitLength(mean);
-	if (length <= 3)
+	if (length <= 2)
 		return std::uint8_t(mean == 0 ? 1 : mean);
-	const int exponent = length - 3; // mean = 1mmm (binary) << (length - 4)
-	const int mantissa = int((mean >> (length - 4)) & 7);
-	return std::uint8_t(exponent > 31 ? 255 : exponent * 8 + mantissa);
+	const int exponent = length - 2; // mean = 1mm (binary) << (length - 3)
+	const int mantissa = int((mean >> (length - 3)) & 3);
+	return std::uint8_t(exponent * 4 + mantissa);
 }
 
 double errorFromCode(std::uint8_t code)
 {
-	if (code < 8)
+	if (code < 4)
 		return std::sqrt(double(code) / 256);
-	return std::sqrt(std::ldexp(double(8 + (code & 7)), (code >> 3) - 1) / 256);
+	return std::sqrt(std::ldexp(double(4 + (code & 3)), (code >> 2) - 1) / 256);
 }
 
 std::uint32_t digestOf(const CornerTable& table, const std::vector<LatticePoint>& positions)

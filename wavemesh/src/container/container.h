@@ -41,7 +41,7 @@ struct Head
 	std::vector<LevelRow> rows; ///< coarsest first
 };
 
-/// The mean squared error `sum / count` as 5 bits of exponent and 3 of mantissa, in 1/256 square
+/// The mean squared error `sum / count` as 6 bits of exponent and 2 of mantissa, in 1/256 square
 /// steps.
 std::uint8_t errorCode(std::uint64_t sum, std::uint64_t count);
 /// Root of what errorCode() stored, in steps.

@@ -42,8 +42,10 @@ Star CoarsenState::star(Index v) const
 
 int CoarsenState::sides(const Star& star, Index parentA, Index parentB, Side side[2]) const
 {
+	if (star.size > Star::kMax)
+		return 0;
 	const int a = star.find(parentA), b = star.find(parentB);
-	if (star.size > Star::kMax || a < 0 || b < 0 || a == b)
+	if (a < 0 || b < 0 || a == b)
 		return 0;
 	const auto fill = [&](Side& s, int from, int to) {
 		s.count = (to - from - 1 + star.size) % star.size;
