@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_files.h"
 
+#include "console.h"
 #include "failure.h"
 #include "file_io.h"
 #include "mesh_guard.h"
@@ -42,18 +43,28 @@ Format formatOf(const std::string& path)
 	                     : Format::Unknown;
 }
 
+/// VCGLib's importers report to a plain function.
+ProgressLine* lineOfImport = nullptr;
+
+bool showImport(const int percent, const char*)
+{
+	if (lineOfImport)
+		lineOfImport->show(percent / 100.0);
+	return true;
+}
+
 /// What VCGLib's importer says: empty, or why the mesh is refused.
 std::string import(VcgMesh& m, const std::string& path, Format format)
 {
 	int mask = 0;
 	switch (format) {
 	case Format::Ply: {
-		const int error = io::ImporterPLY<VcgMesh>::Open(m, path.c_str(), mask);
+		const int error = io::ImporterPLY<VcgMesh>::Open(m, path.c_str(), mask, showImport);
 		return error ? io::ImporterPLY<VcgMesh>::ErrorMsg(error) : "";
 	}
 	case Format::Obj: {
 		using Importer  = io::ImporterOBJ<VcgMesh>;
-		const int error = Importer::Open(m, path.c_str(), mask);
+		const int error = Importer::Open(m, path.c_str(), mask, showImport);
 		// Faces left out are not the same mesh; materials are none of our business.
 		const bool refuse = Importer::ErrorCritical(error) ||
 		                    error == Importer::E_VERTICES_WITH_SAME_IDX_IN_FACE ||
@@ -61,11 +72,11 @@ std::string import(VcgMesh& m, const std::string& path, Format format)
 		return refuse ? Importer::ErrorMsg(error) : "";
 	}
 	case Format::Off: {
-		const int error = io::ImporterOFF<VcgMesh>::Open(m, path.c_str(), mask);
+		const int error = io::ImporterOFF<VcgMesh>::Open(m, path.c_str(), mask, showImport);
 		return error ? io::ImporterOFF<VcgMesh>::ErrorMsg(error) : "";
 	}
 	case Format::Stl: {
-		const int error = io::ImporterSTL<VcgMesh>::Open(m, path.c_str(), mask);
+		const int error = io::ImporterSTL<VcgMesh>::Open(m, path.c_str(), mask, showImport);
 		if (error)
 			return io::ImporterSTL<VcgMesh>::ErrorMsg(error);
 		vcg::tri::Clean<VcgMesh>::RemoveDuplicateVertex(m);
@@ -182,7 +193,11 @@ MeshData loadMesh(const std::string& path)
 			throw Failure(path + ": cannot be read as a mesh: " + wrong);
 	}
 	VcgMesh m;
-	if (const std::string wrong = import(m, path, format); !wrong.empty())
+	ProgressLine line("reading " + path);
+	lineOfImport            = &line;
+	const std::string wrong = import(m, path, format);
+	lineOfImport            = nullptr;
+	if (!wrong.empty())
 		throw Failure(path + ": cannot be read as a mesh: " + wrong);
 	mesh = toMeshData(m);
 	if (mesh.triangles.empty())
