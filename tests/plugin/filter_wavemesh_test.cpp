@@ -19,7 +19,7 @@ namespace {
 struct Shape
 {
 	std::vector<std::array<Scalarm, 3>> vertices;
-	std::vector<std::array<size_t, 3>>  faces;
+	std::vector<std::array<size_t, 3>> faces;
 
 	explicit Shape(const MeshModel& m)
 	{
@@ -27,8 +27,8 @@ struct Shape
 			vertices.push_back({v.cP()[0], v.cP()[1], v.cP()[2]});
 		for (const auto& f : m.cm.face)
 			faces.push_back(
-				{vcg::tri::Index(m.cm, f.cV(0)), vcg::tri::Index(m.cm, f.cV(1)),
-				 vcg::tri::Index(m.cm, f.cV(2))});
+			    {vcg::tri::Index(m.cm, f.cV(0)), vcg::tri::Index(m.cm, f.cV(1)),
+			     vcg::tri::Index(m.cm, f.cV(2))});
 	}
 	bool operator==(const Shape& other) const
 	{
@@ -44,12 +44,11 @@ MeshLabHost::Results browse(MeshLabHost& host, int level)
 double rmsToLayer(MeshLabHost& host, const MeshModel& from, const MeshModel& to)
 {
 	const auto results = host.apply(
-		"Hausdorff Distance",
-		{{"SampledMesh", QString::number(from.id())},
-		 {"TargetMesh", QString::number(to.id())},
-		 {"SampleFace", "true"},
-		 {"SampleNum", "20000"},
-		 {"MaxDist", QString::number(double(to.cm.bbox.Diag()))}});
+	    "Hausdorff Distance", {{"SampledMesh", QString::number(from.id())},
+	                           {"TargetMesh", QString::number(to.id())},
+	                           {"SampleFace", "true"},
+	                           {"SampleNum", "20000"},
+	                           {"MaxDist", QString::number(double(to.cm.bbox.Diag()))}});
 	return results.at("RMS").toDouble() / results.at("diag_mesh_0").toDouble();
 }
 
@@ -70,18 +69,17 @@ TEST(FilterWavemesh, EverySampleScriptRuns)
 
 TEST(FilterWavemesh, SimplifiesToAPercentageAndStaysCloseAndManifold)
 {
-	MeshLabHost&     host     = freshHost();
+	MeshLabHost& host         = freshHost();
 	const MeshModel& original = *host.open(sample("blob.ply")).front();
-	MeshModel&       coarse   = *host.open(sample("blob.ply")).front();
-	const int        before   = coarse.cm.vn;
-	const auto       results =
-		host.apply("Simplification: Wavemesh", {{"target", "3"}, {"percentage", "25"}});
+	MeshModel& coarse         = *host.open(sample("blob.ply")).front();
+	const int before          = coarse.cm.vn;
+	const auto results =
+	    host.apply("Simplification: Wavemesh", {{"target", "3"}, {"percentage", "25"}});
 	EXPECT_LE(coarse.cm.vn, before / 4);
 	EXPECT_GE(coarse.cm.vn, before / 40) << "the finest level below the ceiling, not any";
 	EXPECT_EQ(results.at("vertices").toInt(), coarse.cm.vn);
 	EXPECT_TRUE(results.at("target_reached").toBool());
-	EXPECT_TRUE(
-		host.apply("Compute Topological Measures").at("is_mesh_two_manifold").toBool());
+	EXPECT_TRUE(host.apply("Compute Topological Measures").at("is_mesh_two_manifold").toBool());
 	EXPECT_LT(rmsToLayer(host, original, coarse), 0.02);
 }
 
@@ -92,7 +90,7 @@ TEST(FilterWavemesh, BrowsingReturnsTheLayerBitForBit)
 		MeshLabHost& host = freshHost();
 		host.open(sample(name));
 		const Shape original(host.mesh());
-		const int   finest = browse(host, 0).at("finest_level").toInt();
+		const int finest = browse(host, 0).at("finest_level").toInt();
 		ASSERT_GT(finest, 1);
 		EXPECT_LT(host.mesh().cm.vn, int(original.vertices.size()));
 		int last = host.mesh().cm.vn;
@@ -114,14 +112,13 @@ TEST(FilterWavemesh, BrowsingALayerFromAFileUsesItsLevels)
 	host.save(scratch("browse.wmc"));
 	const QByteArray bytes = contents(scratch("browse.wmc"));
 	const StreamInfo info  = *readInfo(
-        reinterpret_cast<const std::uint8_t*>(bytes.constData()), std::size_t(bytes.size()));
+	     reinterpret_cast<const std::uint8_t*>(bytes.constData()), std::size_t(bytes.size()));
 	host.clear();
 	host.open(scratch("browse.wmc"), {{"level", "1"}});
 	for (int level : {0, 2, info.finestLevel(), 0, info.finestLevel()}) {
 		const auto results = browse(host, level);
 		EXPECT_EQ(results.at("finest_level").toInt(), info.finestLevel());
-		EXPECT_EQ(
-			std::uint32_t(host.mesh().cm.vn), info.levels[std::size_t(level)].vertices);
+		EXPECT_EQ(std::uint32_t(host.mesh().cm.vn), info.levels[std::size_t(level)].vertices);
 		EXPECT_EQ(results.at("bytes").toULongLong(), info.levels[std::size_t(level)].prefix);
 	}
 }
@@ -163,16 +160,16 @@ TEST(FilterWavemesh, AnEditedLayerIsEncodedAnew)
 TEST(FilterWavemesh, LayersFromLevelsLeaveTheLayerAsItWas)
 {
 	MeshLabHost& host = freshHost();
-	MeshModel&   layer = *host.open(sample("vase.ply")).front();
-	const Shape  original(layer);
-	const auto   results =
-		host.apply("Wavemesh: Layers from Levels", {{"from", "0"}, {"to", "-1"}, {"step", "1"}});
+	MeshModel& layer  = *host.open(sample("vase.ply")).front();
+	const Shape original(layer);
+	const auto results =
+	    host.apply("Wavemesh: Layers from Levels", {{"from", "0"}, {"to", "-1"}, {"step", "1"}});
 	const int finest = results.at("finest_level").toInt();
 	EXPECT_EQ(results.at("layers").toInt(), finest + 1);
 	EXPECT_EQ(int(host.document().meshNumber()), finest + 2);
 	EXPECT_TRUE(Shape(layer) == original);
 	double coarser = 1;
-	int    count   = 0;
+	int count      = 0;
 	for (MeshModel& m : host.document().meshIterator()) {
 		if (&m == &layer)
 			continue;
@@ -187,12 +184,12 @@ TEST(FilterWavemesh, LayersFromLevelsLeaveTheLayerAsItWas)
 TEST(FilterWavemesh, AScriptMayLeaveOutEveryParameter)
 {
 	for (const char* filter :
-		 {"Simplification: Wavemesh", "Wavemesh: Browse Levels", "Wavemesh: Layers from Levels"}) {
+	     {"Simplification: Wavemesh", "Wavemesh: Browse Levels", "Wavemesh: Layers from Levels"}) {
 		SCOPED_TRACE(filter);
 		writeFile(
-			scratch("bare.mlx"),
-			QByteArray("<!DOCTYPE FilterScript><FilterScript><filter name=\"") + filter +
-				"\"/></FilterScript>");
+		    scratch("bare.mlx"),
+		    QByteArray("<!DOCTYPE FilterScript><FilterScript><filter name=\"") + filter +
+		        "\"/></FilterScript>");
 		MeshLabHost& host = freshHost();
 		host.open(sample("pebble.ply"));
 		EXPECT_EQ(host.run(scratch("bare.mlx")).size(), 1u);
@@ -203,10 +200,10 @@ TEST(FilterWavemesh, AMeshThatIsNoManifoldGivesAnErrorAndStaysAsItWas)
 {
 	// Three faces on one edge.
 	writeFile(
-		scratch("fin.off"), "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n"
-							"3 0 1 2\n3 1 0 3\n3 0 1 4\n");
+	    scratch("fin.off"), "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n"
+	                        "3 0 1 2\n3 1 0 3\n3 0 1 4\n");
 	for (const char* filter :
-		 {"Simplification: Wavemesh", "Wavemesh: Browse Levels", "Wavemesh: Layers from Levels"}) {
+	     {"Simplification: Wavemesh", "Wavemesh: Browse Levels", "Wavemesh: Layers from Levels"}) {
 		SCOPED_TRACE(filter);
 		MeshLabHost& host = freshHost();
 		host.open(scratch("fin.off"));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// meshlab_host: takes meshes through Wavemesh in a headless MeshLab, as a user would: simplify by a
-/// filter script, save as .wmc, reopen at every level, and compare with the original by MeshLab's
+/// meshlab_host: takes meshes through Wavemesh in a headless MeshLab, as a user would: simplify by
+/// a filter script, save as .wmc, reopen at every level, and compare with the original by MeshLab's
 /// own Hausdorff Distance filter.
 #include "meshlab_host.h"
 
@@ -25,8 +25,8 @@ namespace {
 
 struct Distance
 {
-	double rms  = 0; ///< relative to the bounding box' diagonal
-	double max  = 0; ///< model units
+	double rms = 0; ///< relative to the bounding box' diagonal
+	double max = 0; ///< model units
 };
 
 /// Both ways, the larger. Sampled over the faces, or at the vertices alone.
@@ -35,13 +35,12 @@ Distance distance(MeshLabHost& host, const MeshModel& a, const MeshModel& b, boo
 	Distance d;
 	for (const auto& [from, to] : {std::pair(&a, &b), std::pair(&b, &a)}) {
 		const auto results = host.apply(
-			"Hausdorff Distance",
-			{{"SampledMesh", QString::number(from->id())},
-			 {"TargetMesh", QString::number(to->id())},
-			 {"SampleVert", "true"},
-			 {"SampleFace", atVertices ? "false" : "true"},
-			 {"SampleNum", QString::number(atVertices ? from->cm.vn : 5000)},
-			 {"MaxDist", QString::number(double(a.cm.bbox.Diag()))}});
+		    "Hausdorff Distance", {{"SampledMesh", QString::number(from->id())},
+		                           {"TargetMesh", QString::number(to->id())},
+		                           {"SampleVert", "true"},
+		                           {"SampleFace", atVertices ? "false" : "true"},
+		                           {"SampleNum", QString::number(atVertices ? from->cm.vn : 5000)},
+		                           {"MaxDist", QString::number(double(a.cm.bbox.Diag()))}});
 		d.rms = std::max(d.rms, results.at("RMS").toDouble() / double(a.cm.bbox.Diag()));
 		d.max = std::max(d.max, results.at("max").toDouble());
 	}
@@ -54,8 +53,8 @@ wavemesh::StreamInfo infoOf(const QString& file)
 	if (!f.open(QIODevice::ReadOnly))
 		throw MLException("Cannot read " + file);
 	const QByteArray bytes = f.readAll();
-	auto info = wavemesh::readInfo(
-		reinterpret_cast<const std::uint8_t*>(bytes.constData()), std::size_t(bytes.size()));
+	auto info              = wavemesh::readInfo(
+	                 reinterpret_cast<const std::uint8_t*>(bytes.constData()), std::size_t(bytes.size()));
 	if (!info.ok())
 		throw MLException(file + ": " + QString::fromStdString(info.status().what));
 	return *info;
@@ -69,8 +68,9 @@ void simplify(MeshLabHost& host, const QString& input, const QString& script, co
 		std::printf("  %s: %d -> %d faces (", qPrintable(step.filter), before, host.mesh().cm.fn);
 		const char* separator = "";
 		for (const auto& [name, value] : step.results) {
-			const bool    isReal = value.type() == QVariant::Double;
-			const QString text = isReal ? QString::number(value.toDouble(), 'g', 3) : value.toString();
+			const bool isReal = value.type() == QVariant::Double;
+			const QString text =
+			    isReal ? QString::number(value.toDouble(), 'g', 3) : value.toString();
 			std::printf("%s%s %s", separator, name.c_str(), qPrintable(text));
 			separator = ", ";
 		}
@@ -88,29 +88,29 @@ bool printLevels(MeshLabHost& host, const QString& input, const QString& output)
 	const wavemesh::StreamInfo info = infoOf(output);
 
 	std::printf(
-		"  %5s %9s %9s %10s %10s %8s %15s\n",
-		"level", "vertices", "faces", "bytes", "file up to", "bpv", "RMS error");
+	    "  %5s %9s %9s %10s %10s %8s %15s\n", "level", "vertices", "faces", "bytes", "file up to",
+	    "bpv", "RMS error");
 	bool same = false;
 	for (int level = 0; level <= info.finestLevel(); ++level) {
-		const MeshModel& m   = *host.open(output, {{"level", QString::number(level)}}).front();
-		const auto&      row = info.levels[std::size_t(level)];
+		const MeshModel& m = *host.open(output, {{"level", QString::number(level)}}).front();
+		const auto& row    = info.levels[std::size_t(level)];
 		std::printf(
-			"  %5d %9d %9d %10llu %10llu %8.2f %13.4f %%\n",
-			level, m.cm.vn, m.cm.fn, static_cast<unsigned long long>(row.bytes),
-			static_cast<unsigned long long>(row.prefix),
-			8.0 * double(row.prefix) / double(info.vertices),
-			100 * distance(host, original, m, false).rms);
+		    "  %5d %9d %9d %10llu %10llu %8.2f %13.4f %%\n", level, m.cm.vn, m.cm.fn,
+		    static_cast<unsigned long long>(row.bytes), static_cast<unsigned long long>(row.prefix),
+		    8.0 * double(row.prefix) / double(info.vertices),
+		    100 * distance(host, original, m, false).rms);
 		if (level == info.finestLevel()) {
 			// Half a step in each coordinate, and what float arithmetic adds to it.
-			const double bound = 0.5 * std::sqrt(3.0) * info.step + 1e-6 * double(original.cm.bbox.Diag());
+			const double bound =
+			    0.5 * std::sqrt(3.0) * info.step + 1e-6 * double(original.cm.bbox.Diag());
 			same = m.cm.vn == original.cm.vn && m.cm.fn == original.cm.fn &&
-				   distance(host, original, m, true).max <= bound;
+			       distance(host, original, m, true).max <= bound;
 		}
 		host.document().delMesh(m.id());
 	}
 	std::printf(
-		"  %d bits per coordinate; the finest level %s the original (step %g)\n",
-		info.bits, same ? "is" : "IS NOT", info.step);
+	    "  %d bits per coordinate; the finest level %s the original (step %g)\n", info.bits,
+	    same ? "is" : "IS NOT", info.step);
 	return same;
 }
 
@@ -121,10 +121,10 @@ int main(int argc, char** argv)
 	if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM"))
 		qputenv("QT_QPA_PLATFORM", "offscreen");
 	qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
-	QApplication       app(argc, argv);
+	QApplication app(argc, argv);
 	QCommandLineParser options;
 	options.setApplicationDescription(
-		"Takes meshes through Wavemesh in a headless MeshLab and prints a table of their levels.");
+	    "Takes meshes through Wavemesh in a headless MeshLab and prints a table of their levels.");
 	options.addHelpOption();
 	options.addPositionalArgument("mesh", "Mesh files that MeshLab opens.", "MESH...");
 	options.addOption({"plugins", "Load a plugin, or all of a folder.", "path"});

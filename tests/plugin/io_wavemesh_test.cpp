@@ -17,8 +17,8 @@ namespace {
 /// A sample saved as .wmc by the plugin, and what its head says.
 struct SavedSample
 {
-	QString    original = sample("pretzel.ply");
-	QString    file     = scratch("sample.wmc");
+	QString original = sample("pretzel.ply");
+	QString file     = scratch("sample.wmc");
 	QByteArray bytes;
 	StreamInfo info;
 
@@ -29,7 +29,7 @@ struct SavedSample
 		host.save(file);
 		bytes = contents(file);
 		info  = *readInfo(
-			reinterpret_cast<const std::uint8_t*>(bytes.constData()), std::size_t(bytes.size()));
+		     reinterpret_cast<const std::uint8_t*>(bytes.constData()), std::size_t(bytes.size()));
 		host.clear();
 	}
 
@@ -50,14 +50,13 @@ QString openingMessage(const QByteArray& bytes)
 double hausdorffAtVertices(MeshLabHost& host, const MeshModel& from, const MeshModel& to)
 {
 	return host
-		.apply(
-			"Hausdorff Distance",
-			{{"SampledMesh", QString::number(from.id())},
-			 {"TargetMesh", QString::number(to.id())},
-			 {"SampleVert", "true"},
-			 {"SampleNum", QString::number(from.cm.vn)}})
-		.at("max")
-		.toDouble();
+	    .apply(
+	        "Hausdorff Distance", {{"SampledMesh", QString::number(from.id())},
+	                               {"TargetMesh", QString::number(to.id())},
+	                               {"SampleVert", "true"},
+	                               {"SampleNum", QString::number(from.cm.vn)}})
+	    .at("max")
+	    .toDouble();
 }
 
 } // namespace
@@ -65,9 +64,9 @@ double hausdorffAtVertices(MeshLabHost& host, const MeshModel& from, const MeshM
 TEST(IoWavemesh, FinestLevelIsTheOriginalWithinHalfAStep)
 {
 	const SavedSample saved;
-	MeshLabHost&      host     = freshHost();
-	const MeshModel&  original = *host.open(saved.original).front();
-	const MeshModel&  finest   = *host.open(saved.file).front();
+	MeshLabHost& host         = freshHost();
+	const MeshModel& original = *host.open(saved.original).front();
+	const MeshModel& finest   = *host.open(saved.file).front();
 	EXPECT_EQ(finest.cm.vn, original.cm.vn);
 	EXPECT_EQ(finest.cm.fn, original.cm.fn);
 	const double bound = 0.5 * std::sqrt(3.0) * saved.info.step * 1.001;
@@ -78,7 +77,7 @@ TEST(IoWavemesh, FinestLevelIsTheOriginalWithinHalfAStep)
 TEST(IoWavemesh, EveryLevelHasTheCountsOfTheHeadAndTheTopologyOfTheOriginal)
 {
 	const SavedSample saved;
-	MeshLabHost&      host = freshHost();
+	MeshLabHost& host = freshHost();
 	ASSERT_GT(saved.info.finestLevel(), 1);
 	host.open(saved.original);
 	const auto expected = host.apply("Compute Topological Measures");
@@ -99,20 +98,20 @@ TEST(IoWavemesh, ALevelPastTheFinestAndMinusOneMeanTheFinest)
 	const SavedSample saved;
 	for (const char* level : {"-1", "1000"})
 		EXPECT_EQ(
-			std::uint32_t(freshHost().open(saved.file, {{"level", level}}).front()->cm.vn),
-			saved.info.vertices);
+		    std::uint32_t(freshHost().open(saved.file, {{"level", level}}).front()->cm.vn),
+		    saved.info.vertices);
 }
 
 TEST(IoWavemesh, ATruncatedFileOpensWithAWarning)
 {
 	const SavedSample saved;
-	const int         level = saved.info.finestLevel() - 1;
+	const int level = saved.info.finestLevel() - 1;
 	for (const std::uint64_t more : {0, 1, 40}) {
 		SCOPED_TRACE(more);
-		MeshLabHost&      host   = freshHost();
-		const LevelInfo&  row    = saved.info.levels[std::size_t(level)];
-		const MeshModel&  m      = *host.open(saved.prefix(row.prefix + more)).front();
-		const QString     warned = host.takeWarnings();
+		MeshLabHost& host    = freshHost();
+		const LevelInfo& row = saved.info.levels[std::size_t(level)];
+		const MeshModel& m   = *host.open(saved.prefix(row.prefix + more)).front();
+		const QString warned = host.takeWarnings();
 		EXPECT_GE(std::uint32_t(m.cm.vn), row.vertices);
 		EXPECT_FALSE(warned.isEmpty());
 	}
@@ -124,32 +123,38 @@ TEST(IoWavemesh, ATruncatedFileOpensWithAWarning)
 TEST(IoWavemesh, CorruptForeignAndEmptyFilesAreRefusedWithoutALayer)
 {
 	const SavedSample saved;
-	QByteArray        flipped = saved.bytes;
+	QByteArray flipped          = saved.bytes;
 	flipped[flipped.size() / 2] = char(flipped[flipped.size() / 2] ^ 0x10);
-	const QByteArray bad[] = {
-		{}, "x", "ply\nformat ascii 1.0\nend_header\n", QByteArray(4096, '\0'),
-		saved.bytes.left(40), flipped, saved.bytes.mid(1)};
+	const QByteArray bad[]      = {
+	         {},
+	         "x",
+	         "ply\nformat ascii 1.0\nend_header\n",
+	         QByteArray(4096, '\0'),
+	         saved.bytes.left(40),
+	         flipped,
+	         saved.bytes.mid(1)};
 	for (const QByteArray& bytes : bad) {
 		SCOPED_TRACE(bytes.size());
 		EXPECT_NE(openingMessage(bytes), QString());
 		EXPECT_EQ(freshHost().document().meshNumber(), 0u);
 		EXPECT_EQ(std::uint32_t(freshHost().open(saved.file).front()->cm.vn), saved.info.vertices)
-			<< "MeshLab goes on";
+		    << "MeshLab goes on";
 	}
 }
 
 TEST(IoWavemesh, EveryPrefixOpensOrIsRefused)
 {
 	const SavedSample saved;
-	const int         stride = std::max(1, saved.bytes.size() / 300);
+	const int stride = std::max(1, saved.bytes.size() / 300);
 	for (int size = 0; size < saved.bytes.size(); size += stride) {
 		SCOPED_TRACE(size);
-		MeshLabHost&  host  = freshHost();
+		MeshLabHost& host   = freshHost();
 		const QString error = messageOf([&] { host.open(saved.prefix(std::uint64_t(size))); });
 		if (std::uint64_t(size) >= saved.info.levels[0].prefix) {
 			EXPECT_EQ(error, QString());
 			EXPECT_GE(std::uint32_t(host.mesh().cm.vn), saved.info.levels[0].vertices);
-		} else
+		}
+		else
 			EXPECT_NE(error, QString());
 	}
 }
@@ -157,7 +162,7 @@ TEST(IoWavemesh, EveryPrefixOpensOrIsRefused)
 TEST(IoWavemesh, SavingWithFewerBitsGivesASmallerFile)
 {
 	const SavedSample saved;
-	MeshLabHost&      host = freshHost();
+	MeshLabHost& host = freshHost();
 	host.open(saved.original);
 	host.save(scratch("coarse.wmc"), {{"bits", "8"}});
 	EXPECT_LT(contents(scratch("coarse.wmc")).size(), saved.bytes.size());

@@ -23,7 +23,7 @@ class KeepCurrentFolder
 {
 public:
 	KeepCurrentFolder() : folder_(QDir::currentPath()) {}
-	KeepCurrentFolder(const KeepCurrentFolder&) = delete;
+	KeepCurrentFolder(const KeepCurrentFolder&)            = delete;
 	KeepCurrentFolder& operator=(const KeepCurrentFolder&) = delete;
 	~KeepCurrentFolder() { QDir::setCurrent(folder_); }
 
@@ -89,9 +89,9 @@ void MeshLabHost::loadPlugins(const QString& fileOrFolder)
 std::list<MeshModel*> MeshLabHost::open(const QString& file, const Settings& settings)
 {
 	const KeepCurrentFolder keep;
-	RichParameterList       parameters;
+	RichParameterList parameters;
 	if (!settings.isEmpty()) {
-		const QString   format = QFileInfo(file).suffix();
+		const QString format   = QFileInfo(file).suffix();
 		IOPlugin* const plugin = plugins().inputMeshPlugin(format);
 		if (plugin == nullptr)
 			throw MLException("No plugin opens ." + format);
@@ -99,7 +99,7 @@ std::list<MeshModel*> MeshLabHost::open(const QString& file, const Settings& set
 		set(parameters, settings);
 	}
 	auto layers = meshlab::loadMeshWithStandardParameters(
-		QFileInfo(file).absoluteFilePath(), *document_, progress, parameters);
+	    QFileInfo(file).absoluteFilePath(), *document_, progress, parameters);
 	for (MeshModel* layer : layers)
 		document_->setCurrentMesh(int(layer->id()));
 	return layers;
@@ -108,8 +108,8 @@ std::list<MeshModel*> MeshLabHost::open(const QString& file, const Settings& set
 void MeshLabHost::save(const QString& file, const Settings& settings)
 {
 	const KeepCurrentFolder keep;
-	const QString           format = QFileInfo(file).suffix().toLower();
-	IOPlugin* const         plugin = plugins().outputMeshPlugin(format);
+	const QString format   = QFileInfo(file).suffix().toLower();
+	IOPlugin* const plugin = plugins().outputMeshPlugin(format);
 	if (plugin == nullptr)
 		throw MLException("No plugin saves ." + format);
 	plugin->setLog(&document_->Log);
@@ -117,8 +117,7 @@ void MeshLabHost::save(const QString& file, const Settings& settings)
 	plugin->exportMaskCapability(format, capability, mask);
 	RichParameterList parameters = plugin->initSaveParameter(format, mesh());
 	set(parameters, settings);
-	plugin->save(
-		format, QFileInfo(file).absoluteFilePath(), mesh(), mask, parameters, progress);
+	plugin->save(format, QFileInfo(file).absoluteFilePath(), mesh(), mask, parameters, progress);
 }
 
 QString MeshLabHost::takeWarnings()
@@ -143,7 +142,7 @@ MeshLabHost::Results MeshLabHost::apply(const QString& filter, const RichParamet
 		mesh().updateDataMask(plugin->getRequirements(action));
 	}
 	unsigned int changed = MeshModel::MM_UNKNOWN;
-	Results results = plugin->applyFilter(action, parameters, *document_, changed, progress);
+	Results results      = plugin->applyFilter(action, parameters, *document_, changed, progress);
 	for (MeshModel& m : document_->meshIterator())
 		vcg::tri::Allocator<CMeshO>::CompactEveryVector(m.cm);
 	return results;
@@ -155,7 +154,7 @@ MeshLabHost::Results MeshLabHost::apply(const QString& filter, const Settings& s
 	if (action == nullptr)
 		throw MLException("There is no filter " + filter);
 	RichParameterList parameters =
-		plugins().getFilterPluginFromAction(action)->initParameterList(action, *document_);
+	    plugins().getFilterPluginFromAction(action)->initParameterList(action, *document_);
 	set(parameters, settings);
 	return apply(filter, parameters);
 }

@@ -54,7 +54,8 @@ public:
 
 	/// Applies a filter, by the name it has in the menus, to the document.
 	Results apply(const QString& filter, const Settings& settings = {});
-	/// Runs a filter script. As in MeshLab a filter gets the parameters in the script and no others.
+	/// Runs a filter script. As in MeshLab a filter gets the parameters in the script and no
+	/// others.
 	std::vector<ScriptStep> run(const QString& script);
 
 	MeshDocument& document() { return *document_; }

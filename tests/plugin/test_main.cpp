@@ -12,12 +12,12 @@ namespace wavemesh::test {
 MeshLabHost& freshHost()
 {
 	static MeshLabHost host;
-	static const bool  loaded = [] {
+	static const bool loaded = [] {
 		host.loadPlugins(WAVEMESH_STOCK_PLUGINS);
 		host.loadPlugins(WAVEMESH_OUR_PLUGINS);
 		return true;
 	}();
-	(void) loaded;
+	(void)loaded;
 	host.clear();
 	host.takeWarnings();
 	return host;
