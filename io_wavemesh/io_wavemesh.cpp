@@ -223,11 +223,21 @@ void IOWavemeshPlugin::exportMaskCapability(const QString&, int& capability, int
 }
 
 RichParameterList
-IOWavemeshPlugin::initSaveParameter(const QString& format, const MeshModel&) const
+IOWavemeshPlugin::initSaveParameter(const QString& format, const MeshModel& layer) const
 {
 	RichParameterList list;
-	if (format.toUpper() == kExtension)
-		addEncodeParameters(list, {});
+	if (format.toUpper() != kExtension)
+		return list;
+	// A layer that came from a .wmc goes back as precise as it was.
+	EncodeOptions defaults;
+	if (const LayerStream* stream = findStream(layer.cm)) {
+		const auto info = readInfo(stream->bytes->data(), stream->bytes->size());
+		if (info.ok()) {
+			defaults.bits    = info->bits;
+			defaults.lifting = info->lifting;
+		}
+	}
+	addEncodeParameters(list, defaults);
 	return list;
 }
 
