@@ -135,11 +135,10 @@ encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, co
 	const GeometricalCriterion criterion {wgc, options.wgcSharpness, options.wgcDeviation};
 	bool running           = true;
 	const Stage coarsening = stage.part(0, 0.5);
-	const auto coarsenings =
-	    coarsenAll(mesh.table, mesh.positions, criterion, [&](double fraction) {
-		    running = coarsening(fraction);
-		    return running;
-	    });
+	auto coarsenings = coarsenAll(mesh.table, mesh.positions, criterion, [&](double fraction) {
+		running = coarsening(fraction);
+		return running;
+	});
 	if (!running)
 		return cancelled();
 
@@ -152,7 +151,7 @@ encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, co
 		RangeEncoder ignored; // the order of the base does not depend on its positions
 		base.table = BaseSyntax<RangeEncoder>(ignored, mesh.lattice.bits).write(base, source).table;
 	}
-	Replay levels = replay(coarsenings, std::move(base.table), std::move(source));
+	Replay levels = replay(std::move(coarsenings), std::move(base.table), std::move(source));
 	std::vector<LatticePoint> positions;
 	positions.reserve(levels.source.size());
 	for (const Index v : levels.source)

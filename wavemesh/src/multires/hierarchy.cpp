@@ -110,16 +110,15 @@ std::vector<Coarsening> coarsenAll(
 	return steps;
 }
 
-Replay
-replay(const std::vector<Coarsening>& coarsenings, CornerTable base, std::vector<Index> source)
+Replay replay(std::vector<Coarsening> coarsenings, CornerTable base, std::vector<Index> source)
 {
 	Replay out;
 	out.source = std::move(source);
 	out.finest = std::move(base);
-	for (std::size_t i = coarsenings.size(); i-- > 0;) {
+	for (; !coarsenings.empty(); coarsenings.pop_back()) {
 		ReplayedLevel level;
 		level.parent     = std::move(out.finest);
-		level.refinement = canonical(level.parent, coarsenings[i], out.source);
+		level.refinement = canonical(level.parent, coarsenings.back(), out.source);
 		out.finest       = refine(level.parent, level.refinement);
 		out.levels.push_back(std::move(level));
 	}

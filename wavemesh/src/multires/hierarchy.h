@@ -37,8 +37,7 @@ struct Replay
 /// @param base    connectivity of the base mesh in the decoder's order
 /// @param source  #V_0: vertex of the coarsest mesh in the encoder's numbering behind each of
 /// base's
-/// @param coarsenings  from coarsenAll(), finest first
-Replay
-replay(const std::vector<Coarsening>& coarsenings, CornerTable base, std::vector<Index> source);
+/// @param coarsenings  from coarsenAll(), finest first; each is freed as soon as it was replayed
+Replay replay(std::vector<Coarsening> coarsenings, CornerTable base, std::vector<Index> source);
 
 } // namespace wavemesh
