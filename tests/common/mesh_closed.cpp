@@ -94,9 +94,11 @@ MeshData makeIcosphere(int n)
 	for (const auto& t : ico.triangles)
 		for (int u = 0; u < n; ++u)
 			for (int v = 0; u + v < n; ++v) {
-				addFace(m, vertex(t, u, v), vertex(t, u + 1, v), vertex(t, u, v + 1));
+				// One by one: compilers evaluate arguments in orders of their own.
+				const auto c = vertex(t, u, v + 1), b = vertex(t, u + 1, v), a = vertex(t, u, v);
+				addFace(m, a, b, c);
 				if (u + v + 1 < n)
-					addFace(m, vertex(t, u + 1, v), vertex(t, u + 1, v + 1), vertex(t, u, v + 1));
+					addFace(m, b, vertex(t, u + 1, v + 1), c);
 			}
 	return m;
 }
@@ -213,9 +215,9 @@ MeshData makeHoledPlate(int genus, int n)
 				continue;
 			auto quad = [&](int x0, int y0, int z0, int x1, int y1, int z1, int x2, int y2, int z2,
 			                int x3, int y3, int z3) {
-				addQuad(
-				    m, vertex(x0, y0, z0), vertex(x1, y1, z1), vertex(x2, y2, z2),
-				    vertex(x3, y3, z3));
+				const auto d = vertex(x3, y3, z3), c = vertex(x2, y2, z2);
+				const auto b = vertex(x1, y1, z1), a = vertex(x0, y0, z0);
+				addQuad(m, a, b, c, d);
 			};
 			quad(x, y, 1, x + 1, y, 1, x + 1, y + 1, 1, x, y + 1, 1);
 			quad(x, y, 0, x, y + 1, 0, x + 1, y + 1, 0, x + 1, y, 0);

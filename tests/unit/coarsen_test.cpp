@@ -85,9 +85,9 @@ std::string whatAStepBreaks(const MeshData& mesh, const GeometricalCriterion& cr
 		if (std::string s = whatRefineDoesNotUndo(step, level.table); !s.empty())
 			return where + s;
 		if (step.coarse.vertexCount == level.table.vertexCount)
-			return sortedFaces(facesOf(step.coarse)) == sortedFaces(facesOf(level.table)) ?
-			           "" :
-			           where + "nothing was merged, but the faces are others";
+			return sortedFaces(facesOf(step.coarse)) == sortedFaces(facesOf(level.table))
+			           ? ""
+			           : where + "nothing was merged, but the faces are others";
 		level.positions = pickedPositions(level.positions, step.fineVertex);
 		level.table     = step.coarse;
 	}
@@ -114,9 +114,9 @@ TEST_P(CoarsenFamily, ClosedGenus0_EndsAtTenVerticesOrFewer)
 	ASSERT_EQ(whatIsNotManifold(GetParam().mesh, &t), "");
 	if (t.boundaryLoops != 0 || t.genus != 0)
 		return;
-	const Levels levels     = makeLevels(GetParam().mesh);
-	const CornerTable& base = levels.replay.levels.empty() ? levels.replay.finest :
-	                                                         levels.replay.levels.front().parent;
+	const Levels levels = makeLevels(GetParam().mesh);
+	const CornerTable& base =
+	    levels.replay.levels.empty() ? levels.replay.finest : levels.replay.levels.front().parent;
 	EXPECT_LE(base.vertexCount, 10 * t.components);
 }
 
@@ -134,10 +134,9 @@ TEST_P(CoarsenFamily, ReplayFromTheBase_EndsWithTheOriginal)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Coarsen,
-    CoarsenFamily,
-    testing::ValuesIn(allFamilies()),
-    [](const auto& family) { return family.param.name; });
+    Coarsen, CoarsenFamily, testing::ValuesIn(allFamilies()), [](const auto& family) {
+	    return family.param.name;
+    });
 
 // ---- the paper's criterion, computed anew -------------------------------------------------------
 
@@ -160,8 +159,8 @@ std::vector<bool> sharpVertices(const StageMesh& m, double threshold)
 {
 	std::vector<bool> sharp(m.table.vertexCount, false);
 	const auto normal = [&](Index f) {
-		const auto at = [&](Index k) { return m.positions[m.table.vertex[3 * f + k]]; };
-		Vector n      = cross(minus(at(1), at(0)), minus(at(2), at(0)));
+		const auto at       = [&](Index k) { return m.positions[m.table.vertex[3 * f + k]]; };
+		Vector n            = cross(minus(at(1), at(0)), minus(at(2), at(0)));
 		const double length = norm(n);
 		for (double& x : n)
 			x = length > 0 ? x / length : 0;
@@ -180,17 +179,20 @@ TEST(GeometricalCriterion, NoSharpVertexBecomesAChildFarFromItsEdge)
 	int sharpChildren = 0;
 	for (const NamedMesh& m : allFamilies())
 		for (const auto& [sharpness, deviation] : {std::pair {0.3, 0.25}, std::pair {0.1, 0.05}}) {
-			const StageMesh fine    = stageMesh(m.mesh, 10);
-			const auto sharp        = sharpVertices(fine, sharpness);
-			const Coarsening coarse = coarsen(fine.table, fine.positions, {true, sharpness, deviation});
+			const StageMesh fine = stageMesh(m.mesh, 10);
+			const auto sharp     = sharpVertices(fine, sharpness);
+			const Coarsening coarse =
+			    coarsen(fine.table, fine.positions, {true, sharpness, deviation});
 			for (Index c = 0; c < coarse.coarse.cornerCount(); ++c) {
 				const Index child = coarse.childOnEdge[c];
 				if (child == kNone || !sharp[child])
 					continue;
 				++sharpChildren;
 				const auto& v = fine.positions[child];
-				const auto& a = fine.positions[coarse.fineVertex[coarse.coarse.vertex[nextCorner(c)]]];
-				const auto& b = fine.positions[coarse.fineVertex[coarse.coarse.vertex[prevCorner(c)]]];
+				const auto& a =
+				    fine.positions[coarse.fineVertex[coarse.coarse.vertex[nextCorner(c)]]];
+				const auto& b =
+				    fine.positions[coarse.fineVertex[coarse.coarse.vertex[prevCorner(c)]]];
 				const Vector edge = minus(a, b), va = minus(v, a), vb = minus(v, b);
 				const Vector detail = {
 				    (va[0] + vb[0]) / 2, (va[1] + vb[1]) / 2, (va[2] + vb[2]) / 2};
@@ -234,7 +236,8 @@ TEST(Coarsen, ShrinksIrregularMeshesByNearlyTwoOnAverage)
 TEST(Coarsen, DoesNotDependOnAnythingButItsInput)
 {
 	const StageMesh fine = stageMesh(makeFlippedSphere(500, 53));
-	const Coarsening a = coarsen(fine.table, fine.positions, {}), b = coarsen(fine.table, fine.positions, {});
+	const Coarsening a   = coarsen(fine.table, fine.positions, {}),
+	                 b   = coarsen(fine.table, fine.positions, {});
 	EXPECT_EQ(a.coarse.vertex, b.coarse.vertex);
 	EXPECT_EQ(a.childOnEdge, b.childOnEdge);
 	EXPECT_EQ(a.faceCode, b.faceCode);
@@ -244,7 +247,8 @@ TEST(CoarsenAll, StopsWhenAsked)
 {
 	const StageMesh fine = stageMesh(makeIcosphere(15));
 	int calls            = 0;
-	const auto steps     = coarsenAll(fine.table, fine.positions, {}, [&](double) { return ++calls < 2; });
+	const auto steps =
+	    coarsenAll(fine.table, fine.positions, {}, [&](double) { return ++calls < 2; });
 	EXPECT_EQ(calls, 2);
 	EXPECT_EQ(steps.size(), 2u);
 }

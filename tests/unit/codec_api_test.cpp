@@ -54,8 +54,8 @@ TEST(Encode, RefusesWhatIsNoManifoldAndNamesIt)
 	EXPECT_EQ(codeOf({m.positions, {}}), StatusCode::Unsupported) << "no faces";
 	m.triangles[2][1] = 99;
 	EXPECT_EQ(codeOf(m), StatusCode::InvalidArgument);
-	m                  = makeTetrahedron();
-	m.positions[3][2]  = std::numeric_limits<double>::infinity();
+	m                 = makeTetrahedron();
+	m.positions[3][2] = std::numeric_limits<double>::infinity();
 	EXPECT_EQ(codeOf(m), StatusCode::InvalidArgument);
 	m = makeTetrahedron();
 	m.positions.push_back({9, 9, 9});
@@ -80,7 +80,8 @@ TEST(Encode, NeverModifiesItsInput)
 
 TEST(Encode, WgcAuto_IsTheSmallerOfBoth)
 {
-	for (const MeshData& mesh : {makeStarPrism(16, 20), makeBumpySphere(400, 122), makeHoledPlate(2, 4)}) {
+	for (const MeshData& mesh :
+	     {makeStarPrism(16, 20), makeBumpySphere(400, 122), makeHoledPlate(2, 4)}) {
 		EncodeOptions o;
 		const auto size = [&](Wgc wgc) {
 			o.wgc = wgc;
@@ -97,7 +98,8 @@ TEST(Encode, SameInput_GivesTheSameBytes)
 	EXPECT_EQ(encode(mesh)->bytes, encode(mesh)->bytes);
 }
 
-// ---- progress -------------------------------------------------------------------------------------
+// ---- progress
+// -------------------------------------------------------------------------------------
 
 TEST(Progress, OfEncode_IsMonotoneFrom0To1)
 {
@@ -164,7 +166,8 @@ TEST(Progress, OfDecode_IsMonotoneAndCancels)
 	}
 }
 
-// ---- limits ---------------------------------------------------------------------------------------
+// ---- limits
+// ---------------------------------------------------------------------------------------
 
 TEST(DecodeLimits, RefuseMoreVerticesOrFacesThanAllowed)
 {
@@ -245,7 +248,8 @@ TEST(DecodeLimits, OnADeclaredButAbsentSplit_TakeNoMemory)
 	Bytes lie;
 	writeHead(head, lie);
 	lie.insert(
-	    lie.end(), file->bytes.begin() + static_cast<std::ptrdiff_t>(base.begin), file->bytes.end());
+	    lie.end(), file->bytes.begin() + static_cast<std::ptrdiff_t>(base.begin),
+	    file->bytes.end());
 	AllocationWatch watch;
 	const auto back = decode(lie.data(), lie.size());
 	EXPECT_EQ(back.status().code, StatusCode::Truncated) << back.status().what;

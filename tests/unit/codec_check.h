@@ -39,8 +39,7 @@ std::vector<std::array<std::int64_t, 3>> latticeOf(const MeshData& mesh, const S
 
 /// Empty if `decoded` is isomorphic to `original` with the same lattice integers and stands exactly
 /// on the lattice; else the first difference.
-std::string
-whatIsLost(const MeshData& original, const MeshData& decoded, const StreamInfo& info);
+std::string whatIsLost(const MeshData& original, const MeshData& decoded, const StreamInfo& info);
 
 /// Empty if every level of `file` is an oriented simplicial manifold of the topology of `original`,
 /// has the counts that the head declares, and keeps the vertices of the one before in place.

@@ -18,9 +18,10 @@ namespace {
 TEST(ByteIo, WhatIsWrittenIsRead)
 {
 	ByteWriter out;
-	const std::uint64_t numbers[] = {0,        1,           127,         128,        16383,
-	                                 16384,    0xffffffffu, 0x100000000, 1ull << 56, (1ull << 63) - 1};
-	const double reals[] = {0, -0.0, 1, -1e300, 1e-310, 0.1, std::numeric_limits<double>::infinity()};
+	const std::uint64_t numbers[] = {0,     1,           127,         128,        16383,
+	                                 16384, 0xffffffffu, 0x100000000, 1ull << 56, (1ull << 63) - 1};
+	const double reals[]          = {
+	             0, -0.0, 1, -1e300, 1e-310, 0.1, std::numeric_limits<double>::infinity()};
 	for (const std::uint64_t x : numbers)
 		out.varint(x);
 	for (const std::uint64_t x : numbers)
@@ -138,9 +139,9 @@ Head someHead(std::uint64_t seed)
 		x = rng.below(2) ? -3.5 : rng.between(-1e9, 1e9);
 	h.digest = static_cast<std::uint32_t>(rng.next());
 	LevelRow row;
-	row.vertices = 3 + rng.below(10);
-	row.faces    = 1 + rng.below(2 * row.vertices);
-	row.faces    = std::max(row.faces, row.vertices / 3 + 1);
+	row.vertices               = 3 + rng.below(10);
+	row.faces                  = 1 + rng.below(2 * row.vertices);
+	row.faces                  = std::max(row.faces, row.vertices / 3 + 1);
 	const std::uint32_t levels = 1 + rng.below(20);
 	for (std::uint32_t i = 0; i < levels; ++i) {
 		row.kind              = i == 0 ? LevelKind::Base : LevelKind::Split;
@@ -205,16 +206,16 @@ TEST(Head, WithALevelThatASplitCannotGive_IsCorrupt)
 	while (good.rows.size() < 2)
 		good = someHead(good.digest);
 	ASSERT_EQ(codeOf(good), StatusCode::Ok);
-	Head h                = good;
-	h.rows.back().faces   = 4 * h.rows[h.rows.size() - 2].faces + 1;
+	Head h              = good;
+	h.rows.back().faces = 4 * h.rows[h.rows.size() - 2].faces + 1;
 	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "more than four descendants a face";
-	h                     = good;
-	h.rows[0].vertices    = 3 * h.rows[0].faces + 1;
+	h                  = good;
+	h.rows[0].vertices = 3 * h.rows[0].faces + 1;
 	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "more vertices than corners in the base";
 	h                       = good;
 	h.rows.back().endsChunk = false;
 	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "the last chunk is open";
-	h                              = good;
+	h                               = good;
 	h.rows.back().connectivityBytes = h.rows.back().bytes + 1;
 	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "a part larger than the whole";
 }
@@ -224,8 +225,8 @@ TEST(Head, WithAFrameThatIsNotALattice_IsCorrupt)
 	const double bad[] = {
 	    std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
 	for (const double x : bad) {
-		Head h           = someHead(2);
-		h.lattice.step   = x;
+		Head h         = someHead(2);
+		h.lattice.step = x;
 		EXPECT_EQ(codeOf(h), StatusCode::Corrupt);
 		h                = someHead(2);
 		h.lattice.origin = {0, x, 0};
@@ -236,164 +237,6 @@ TEST(Head, WithAFrameThatIsNotALattice_IsCorrupt)
 		h.lattice.step = x;
 		EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << x;
 	}
-}
-
-// ---- versions and unknown chunks ----------------------------------------------------------------
-
-class WholeFile : public testing::Test
-{
-protected:
-	void SetUp() override
-	{
-		mesh_   = makeFlippedSphere(110, 15);
-		file_   = encode(mesh_)->bytes;
-		chunks_ = chunksOf(file_);
-		ASSERT_GE(chunks_.size(), 2u);
-	}
-	Bytes withChunkAt(std::size_t at, std::uint8_t type, const Bytes& payload) const
-	{
-		Bytes changed     = file_;
-		const Bytes chunk = makeChunk(type, payload);
-		changed.insert(
-		    changed.begin() + static_cast<std::ptrdiff_t>(at), chunk.begin(), chunk.end());
-		return changed;
-	}
-	static Result<DecodedMesh> decoded(const Bytes& file)
-	{
-		const ExactBuffer exact(file.data(), file.size());
-		return decode(exact.data(), exact.size());
-	}
-
-	MeshData mesh_;
-	Bytes file_;
-	std::vector<ChunkPlace> chunks_;
-};
-
-TEST_F(WholeFile, UnknownAncillaryChunk_IsSkippedWhereverItStands)
-{
-	for (const ChunkPlace& c : chunks_)
-		for (const Bytes& payload : {Bytes {}, Bytes {1, 2, 3}, Bytes(1000, 7)}) {
-			const auto back = decoded(withChunkAt(c.end, 'q', payload));
-			ASSERT_TRUE(back.ok()) << back.status().what;
-			EXPECT_EQ(back->mesh.triangles, decoded(file_)->mesh.triangles);
-		}
-}
-
-TEST_F(WholeFile, UnknownCriticalChunk_IsRefused)
-{
-	for (const std::uint8_t type : {'Q', 'A', 'Z', 'H', '@', '\0', '\xff'}) {
-		const auto back = decoded(withChunkAt(chunks_[0].end, static_cast<std::uint8_t>(type), {1, 2}));
-		EXPECT_EQ(back.status().code, StatusCode::Corrupt) << int(type);
-		EXPECT_FALSE(back.hasValue());
-	}
-}
-
-TEST_F(WholeFile, DamagedAncillaryChunk_IsNotSkipped)
-{
-	Bytes changed = withChunkAt(chunks_[0].end, 'q', {1, 2, 3});
-	changed[chunks_[0].end + 3] ^= 1;
-	EXPECT_EQ(decoded(changed).status().code, StatusCode::ChecksumMismatch);
-}
-
-TEST_F(WholeFile, NewerMajorVersion_IsRefusedWhateverTheHeadLooksLike)
-{
-	Bytes changed                = file_;
-	changed[chunks_[0].payload] = 1;
-	mendChecksum(changed, chunks_[0]);
-	EXPECT_EQ(decoded(changed).status().code, StatusCode::VersionTooNew);
-	EXPECT_EQ(readInfo(changed.data(), changed.size()).status().code, StatusCode::VersionTooNew);
-	Bytes other(file_.begin(), file_.begin() + 8);
-	const Bytes head = makeChunk('H', {9, 0, 1, 2, 3});
-	other.insert(other.end(), head.begin(), head.end());
-	EXPECT_EQ(decoded(other).status().code, StatusCode::VersionTooNew);
-}
-
-TEST_F(WholeFile, ForeignData_IsNotWmc)
-{
-	EXPECT_EQ(decode(nullptr, 0).status().code, StatusCode::NotWmc);
-	for (const std::string text : {"ply\nformat ascii 1.0\n", "x", "\x89PNG\r\n\x1a\n", "OFF"}) {
-		const Bytes bytes(text.begin(), text.end());
-		EXPECT_EQ(decoded(bytes).status().code, StatusCode::NotWmc) << text;
-	}
-}
-
-TEST_F(WholeFile, TextModeTransfer_IsCorruptNotForeign)
-{
-	Bytes unixed, stripped = file_;
-	for (std::size_t i = 0; i < file_.size(); ++i)
-		if (!(file_[i] == '\r' && file_[i + 1] == '\n'))
-			unixed.push_back(file_[i]);
-	for (auto& b : stripped)
-		b &= 0x7f;
-	for (const Bytes& bytes : {unixed, stripped}) {
-		const Status s = decoded(bytes).status();
-		EXPECT_EQ(s.code, StatusCode::Corrupt);
-		EXPECT_NE(s.what.find("text mode"), std::string::npos) << s.what;
-	}
-}
-
-TEST_F(WholeFile, BytesBehindTheEnd_AreIgnored)
-{
-	Bytes longer = file_;
-	longer.insert(longer.end(), 100, 0xaa);
-	const auto back = decoded(longer);
-	ASSERT_TRUE(back.ok()) << back.status().what;
-	EXPECT_EQ(back->mesh.positions, decoded(file_)->mesh.positions);
-}
-
-// ---- the error figure -----------------------------------------------------------------------------
-
-TEST(ErrorCode, IsMonotone)
-{
-	int before = 0;
-	for (std::uint64_t sum = 0; sum < (std::uint64_t {1} << 63); sum += 1 + sum / 40) {
-		const int code = errorCode(sum, 1000);
-		ASSERT_GE(code, before) << sum;
-		before = code;
-	}
-	for (int code = 1; code < 256; ++code)
-		ASSERT_GT(errorFromCode(std::uint8_t(code)), errorFromCode(std::uint8_t(code - 1)));
-	EXPECT_EQ(errorCode(0, 1000), 0);
-	EXPECT_EQ(errorFromCode(0), 0);
-	EXPECT_GT(errorCode(1, 1u << 31), 0) << "not exactly none is not none";
-}
-
-TEST(ErrorCode, IsTheRootMeanSquareWithinAnEighth)
-{
-	// Two bits of mantissa, cut: the mean square is low by less than 1/4, its root by less than 1/8.
-	Rng rng(112);
-	for (int i = 0; i < 20000; ++i) {
-		const std::uint64_t count = 1 + rng.below(1000000);
-		const std::uint64_t sum   = count / 8 + (rng.next() >> (8 + rng.below(42)));
-		const double truth        = std::sqrt(double(sum) / double(count));
-		if (truth < 0.3 || double(sum) > 7e16) // above, 256 times the sum does not fit into 64 bits
-			continue;
-		const double said = errorFromCode(errorCode(sum, count));
-		ASSERT_LE(said, truth * (1 + 1e-12)) << sum << ' ' << count;
-		ASSERT_GE(said, truth * (1 - 1.0 / 8 - 0.02)) << sum << ' ' << count;
-	}
-}
-
-TEST(ErrorCode, OfSumsThatDoNotFit_IsTheLargest)
-{
-	EXPECT_EQ(errorCode(~std::uint64_t {0}, 1), 255);
-	EXPECT_TRUE(std::isfinite(errorFromCode(255)));
-}
-
-TEST(ErrorFigure, OfALevel_IsTheRootMeanSquareOfTheDetailsItLacks)
-{
-	EncodeOptions o;
-	o.lifting       = kLiftingOff; // then a detail is a vertex less the middle of its parents
-	const auto file = encode(makeBumpySphere(400, 113), o);
-	const auto& levels = file->info.levels;
-	ASSERT_GE(levels.size(), 3u);
-	for (std::size_t j = 0; j + 1 < levels.size(); ++j) {
-		// The prefix that ends with the connectivity of level j + 1 puts new vertices on the middles.
-		EXPECT_GT(levels[j].error, 0);
-		EXPECT_GE(levels[j].error, levels[j + 1].error);
-	}
-	EXPECT_EQ(levels.back().error, 0);
-	EXPECT_LT(levels[0].error, 3) << "model units: the sphere has the radius one";
 }
 
 } // namespace

@@ -19,8 +19,10 @@ bool isRefusal(StatusCode code)
 	case StatusCode::Truncated:
 	case StatusCode::Corrupt:
 	case StatusCode::ChecksumMismatch:
-	case StatusCode::LimitExceeded: return true;
-	default: return false;
+	case StatusCode::LimitExceeded:
+		return true;
+	default:
+		return false;
 	}
 }
 
@@ -120,7 +122,8 @@ TEST_P(EveryChange, OfAByte_IsNoticed)
 			Bytes changed = file_;
 			changed[at]   = value;
 			if (value != file_[at]) {
-				ASSERT_EQ(judge(changed, inLength(at)), "") << "byte " << at << " is " << int(value);
+				ASSERT_EQ(judge(changed, inLength(at)), "")
+				    << "byte " << at << " is " << int(value);
 			}
 		}
 	}
@@ -190,10 +193,9 @@ TEST_P(EveryChange, OneByteMissingOrTwice_IsNoticed)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Damaged,
-    EveryChange,
-    testing::ValuesIn(smallFiles()),
-    [](const auto& small) { return small.param.name; });
+    Damaged, EveryChange, testing::ValuesIn(smallFiles()), [](const auto& small) {
+	    return small.param.name;
+    });
 
 } // namespace
 } // namespace wavemesh::test

@@ -90,10 +90,9 @@ TEST_P(RangeCoder, OfEveryPrefix_GivesTrueBitsUntilItSaysExhausted)
 	}
 }
 
-/// Does this prefix determine the first `count` bits, whatever follows? The extremes tell: the coder
-/// is monotone in its data.
-bool determines(
-    std::vector<std::uint8_t> prefix, const std::vector<Bit>& bits, std::size_t count)
+/// Does this prefix determine the first `count` bits, whatever follows? The extremes tell: the
+/// coder is monotone in its data.
+bool determines(std::vector<std::uint8_t> prefix, const std::vector<Bit>& bits, std::size_t count)
 {
 	for (const std::uint8_t fill : {std::uint8_t {0}, std::uint8_t {255}}) {
 		auto data = prefix;
@@ -131,14 +130,12 @@ TEST_P(RangeCoder, Prefix_IsTheShortestThatDeterminesTheBitsBeforeTheMark)
 	}
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Entropy,
-    RangeCoder,
-    testing::Values(0, 1, 2),
-    [](const auto& style) {
-	    return std::string(
-	        style.param == 0 ? "random" : style.param == 1 ? "skewed" : "always_unlikely");
-    });
+INSTANTIATE_TEST_SUITE_P(Entropy, RangeCoder, testing::Values(0, 1, 2), [](const auto& style) {
+	return std::string(
+	    style.param == 0   ? "random"
+	    : style.param == 1 ? "skewed"
+	                       : "always_unlikely");
+});
 
 TEST(RangeEncoder, FinishOfNothing_IsNothing)
 {
@@ -214,7 +211,7 @@ TEST(Integers, RawBits_ComeBack)
 	EXPECT_FALSE(decoder.exhausted());
 }
 
-template<class Model>
+template <class Model>
 void expectBack(const std::vector<std::int64_t>& values)
 {
 	RangeEncoder coder;
@@ -289,7 +286,8 @@ TEST(Mixer, GivesBackEveryBitAndLearnsWhichModelToTrust)
 	Rng rng(304);
 	std::vector<bool> bits;
 	for (int i = 0; i < 20000; ++i)
-		bits.push_back(i % 2 ? bits.back() : rng.below(2) == 1); // every second repeats the one before
+		bits.push_back(
+		    i % 2 ? bits.back() : rng.below(2) == 1); // every second repeats the one before
 	const auto run = [&](auto& coder) {
 		Mixer<2> mixer(2);
 		AdaptiveBit alone, afterZero, afterOne;

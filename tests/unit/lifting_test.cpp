@@ -42,8 +42,8 @@ enum class Range { Small, Lattice, Extreme };
 
 std::vector<LatticePoint> randomPositions(Index count, Range range, Rng& rng)
 {
-	constexpr std::int32_t kLow  = std::numeric_limits<std::int32_t>::min();
-	constexpr std::int32_t kHigh = std::numeric_limits<std::int32_t>::max();
+	constexpr std::int32_t kLow   = std::numeric_limits<std::int32_t>::min();
+	constexpr std::int32_t kHigh  = std::numeric_limits<std::int32_t>::max();
 	const std::int32_t extremes[] = {kLow, kHigh, kLow + 1, kHigh - 1, 0, -1, 1};
 	std::vector<LatticePoint> out(count);
 	for (LatticePoint& p : out)
@@ -87,7 +87,7 @@ TEST(Lifting, AnalyseUndoesSynthesise_ForAnyDetails)
 		const Parents parents = parentsOf(s.parent, s.refinement);
 		for (int disc : {kLiftingOff, 0, 2}) {
 			const UpdateWeights weights = updateWeights(s.parent, s.refinement, parents, disc);
-			const auto coarse  = randomPositions(s.refinement.parentVertices, Range::Extreme, rng);
+			const auto coarse = randomPositions(s.refinement.parentVertices, Range::Extreme, rng);
 			const auto details =
 			    randomPositions(static_cast<Index>(parents.size()), Range::Extreme, rng);
 			auto positions = coarse;
@@ -192,9 +192,8 @@ TEST(Lifting, Synthesise_IsEquation15WithoutUpdateAnd25With)
 		for (int disc : {kLiftingOff, 0, 1, 2}) {
 			const UpdateWeights w = updateWeights(s.parent, s.refinement, parents, disc);
 			const auto coarse     = randomPositions(coarseCount, Range::Lattice, rng);
-			const auto d =
-			    randomPositions(static_cast<Index>(parents.size()), Range::Small, rng);
-			auto fine = coarse;
+			const auto d = randomPositions(static_cast<Index>(parents.size()), Range::Small, rng);
+			auto fine    = coarse;
 			synthesise(parents, w, d, fine);
 			std::vector<std::array<std::int64_t, 3>> alphaD(coarseCount, {0, 0, 0});
 			for (std::size_t i = 0; !w.begin.empty() && i < parents.size(); ++i)

@@ -26,8 +26,8 @@ TEST(Quantise, GivesTheNearestPointOfTheLattice)
 		const auto lattice        = makeLattice(positions, bits, 0);
 		ASSERT_TRUE(lattice.ok());
 		EXPECT_EQ(lattice->bits, bits);
-		const auto points         = quantise(positions, *lattice);
-		std::int32_t largest      = 0;
+		const auto points    = quantise(positions, *lattice);
+		std::int32_t largest = 0;
 		for (std::size_t v = 0; v < points.size(); ++v)
 			for (std::size_t k = 0; k < 3; ++k) {
 				ASSERT_GE(points[v][k], 0);
@@ -72,7 +72,8 @@ TEST(MakeLattice, OfOnePoint_HasAPositiveStep)
 	const auto lattice = makeLattice({{1, 2, 3}, {1, 2, 3}}, 12, 0);
 	ASSERT_TRUE(lattice.ok());
 	EXPECT_GT(lattice->step, 0);
-	EXPECT_EQ(lattice->position(quantise({{1, 2, 3}}, *lattice)[0]), (std::array<double, 3> {1, 2, 3}));
+	EXPECT_EQ(
+	    lattice->position(quantise({{1, 2, 3}}, *lattice)[0]), (std::array<double, 3> {1, 2, 3}));
 }
 
 TEST(MakeLattice, KeepsAStepInModelUnitsAndCountsItsBits)
@@ -111,7 +112,8 @@ TEST(MakeLattice, RefusesWhatIsOutOfRange)
 TEST(CornerTable, OfEveryFamily_IsConsistent)
 {
 	for (const NamedMesh& m : allFamilies()) {
-		const auto t = buildCornerTable(m.mesh.triangles, static_cast<Index>(m.mesh.positions.size()));
+		const auto t =
+		    buildCornerTable(m.mesh.triangles, static_cast<Index>(m.mesh.positions.size()));
 		ASSERT_TRUE(t.ok()) << m.name << ": " << t.status().what;
 		std::map<std::pair<Index, Index>, Index> facing; // directed edge -> corner that faces it
 		for (Index c = 0; c < t->cornerCount(); ++c) {
@@ -128,7 +130,8 @@ TEST(CornerTable, OfEveryFamily_IsConsistent)
 TEST(CornerTable, FansAndValences_AreThoseOfTheEdges)
 {
 	for (const NamedMesh& m : allFamilies()) {
-		const auto t = buildCornerTable(m.mesh.triangles, static_cast<Index>(m.mesh.positions.size()));
+		const auto t =
+		    buildCornerTable(m.mesh.triangles, static_cast<Index>(m.mesh.positions.size()));
 		std::vector<std::map<Index, int>> neighbours(t->vertexCount);
 		std::vector<Index> faces(t->vertexCount, 0);
 		for (const auto& f : m.mesh.triangles)
@@ -202,7 +205,7 @@ TEST(IntegerMath, Log2Quarters_IsMonotoneAndCloseToTheLogarithm)
 
 TEST(IntegerMath, Extremes_DoNotOverflow)
 {
-	constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min(),
+	constexpr std::int32_t kLow  = std::numeric_limits<std::int32_t>::min(),
 	                       kHigh = std::numeric_limits<std::int32_t>::max();
 	EXPECT_EQ(wrappingAdd(kHigh, 1), kLow);
 	EXPECT_EQ(wrappingSubtract(kLow, 1), kHigh);

@@ -39,7 +39,7 @@ void expectTemplate(std::array<bool, 3> splits, FaceCode code, const std::vector
 	for (Index turn = 0; turn < 3; ++turn) {
 		const CornerTable parent = tableOf({{0, 1, 2}}, 3);
 		Refinement r             = nothing(parent);
-		std::uint32_t name[7]    = {turn, (turn + 1) % 3, (turn + 2) % 3, kNone, kNone, kNone, kNone};
+		std::uint32_t name[7] = {turn, (turn + 1) % 3, (turn + 2) % 3, kNone, kNone, kNone, kNone};
 		for (Index i = 0; i < 3; ++i)
 			if (splits[i]) {
 				name[3 + i] = r.childVertices;
@@ -93,7 +93,7 @@ TEST(Refine_Flip, WithAPlainFace_RunsFromTheChildToTheFarVertex)
 {
 	const CornerTable parent = tableOf(kPair, 4);
 	Refinement r             = nothing(parent);
-	split(r, parent, 2); // the edge 0-1, faced by vertex 2: child 4
+	split(r, parent, 2);        // the edge 0-1, faced by vertex 2: child 4
 	r.faceCode[0] = kFaceFlip2; // corner 2 counted from the named one is vertex 1: edge 2-0
 	EXPECT_EQ(
 	    sortedFaces(facesOf(refine(parent, r))), sortedFaces({{4, 1, 2}, {0, 4, 3}, {4, 2, 3}}));
@@ -118,8 +118,7 @@ TEST(Refine_Flip, WithA1To2Face_RunsFromChildToChild)
 			r.faceCode[0] = kFaceFlip2;
 		const CornerTable fine = refine(parent, r);
 		EXPECT_EQ(
-		    sortedFaces(facesOf(fine)),
-		    sortedFaces({{2, 4, 1}, {0, 5, 3}, {0, 4, 5}, {4, 2, 5}}))
+		    sortedFaces(facesOf(fine)), sortedFaces({{2, 4, 1}, {0, 5, 3}, {0, 4, 5}, {4, 2, 5}}))
 		    << fromSecond;
 		EXPECT_EQ(whatIsNotLinked(fine), "");
 	}
@@ -145,9 +144,11 @@ TEST(CanFlip, RefusesBoundaryUsedFacesAndFacesWithTwoOrMoreSplits)
 	EXPECT_FALSE(canFlip(parent, r, flipped, 1)) << "1:3 behind";
 }
 
-// ---- against a naive refinement with sets of triangles --------------------------------------------
+// ---- against a naive refinement with sets of triangles
+// --------------------------------------------
 
-std::vector<Triangle> naiveFace(const Refinement& r, const CornerTable& parent, Index f, Index centre)
+std::vector<Triangle>
+naiveFace(const Refinement& r, const CornerTable& parent, Index f, Index centre)
 {
 	const FaceShape s = faceShape(r.childOnEdge, f);
 	std::uint32_t v[3], m[3];
@@ -157,7 +158,8 @@ std::vector<Triangle> naiveFace(const Refinement& r, const CornerTable& parent, 
 		m[i]          = r.childOnEdge[c];
 	}
 	switch (s.splits) {
-	case 1: return {{v[0], v[1], m[0]}, {v[0], m[0], v[2]}};
+	case 1:
+		return {{v[0], v[1], m[0]}, {v[0], m[0], v[2]}};
 	case 2:
 		if (r.faceCode[f] == kFaceDiagonal1)
 			return {{v[0], m[2], m[1]}, {m[2], v[1], m[1]}, {m[1], v[1], v[2]}};
@@ -186,8 +188,9 @@ Triangle& faceAlong(std::vector<Triangle>& faces, std::uint32_t a, std::uint32_t
 std::vector<Triangle> naiveRefine(const CornerTable& parent, const Refinement& r)
 {
 	std::vector<std::vector<Triangle>> byFace;
-	Index centre = r.childVertices -
-	               static_cast<Index>(std::count(r.faceCode.begin(), r.faceCode.end(), kFaceCentre));
+	Index centre =
+	    r.childVertices -
+	    static_cast<Index>(std::count(r.faceCode.begin(), r.faceCode.end(), kFaceCentre));
 	for (Index f = 0; f < parent.faceCount(); ++f) {
 		byFace.push_back(naiveFace(r, parent, f, centre));
 		centre += r.faceCode[f] == kFaceCentre;
@@ -195,14 +198,14 @@ std::vector<Triangle> naiveRefine(const CornerTable& parent, const Refinement& r
 	for (Index f = 0; f < parent.faceCount(); ++f) {
 		if (r.faceCode[f] != kFaceFlip1 && r.faceCode[f] != kFaceFlip2)
 			continue;
-		const Index named = faceShape(r.childOnEdge, f).corner;
-		const Index c     = r.faceCode[f] == kFaceFlip1 ? nextCorner(named) : prevCorner(named);
+		const Index named     = faceShape(r.childOnEdge, f).corner;
+		const Index c         = r.faceCode[f] == kFaceFlip1 ? nextCorner(named) : prevCorner(named);
 		const std::uint32_t a = parent.vertex[nextCorner(c)], b = parent.vertex[prevCorner(c)];
 		Triangle& near        = faceAlong(byFace[f], a, b);
 		Triangle& far         = faceAlong(byFace[parent.opposite[c] / 3], b, a);
 		const std::uint32_t l = near[2], o = far[2];
-		near                  = {l, a, o};
-		far                   = {o, b, l};
+		near = {l, a, o};
+		far  = {o, b, l};
 	}
 	std::vector<Triangle> all;
 	for (const auto& faces : byFace)
@@ -219,7 +222,8 @@ TEST(Refine, OfRandomRefinements_IsWhatTheDrawingsSay)
 			const Refinement r     = randomRefinement(parent.table, rng);
 			const CornerTable fine = refine(parent.table, r);
 			ASSERT_EQ(fine.vertexCount, r.childVertices);
-			ASSERT_EQ(sortedFaces(facesOf(fine)), sortedFaces(naiveRefine(parent.table, r))) << m.name;
+			ASSERT_EQ(sortedFaces(facesOf(fine)), sortedFaces(naiveRefine(parent.table, r)))
+			    << m.name;
 			ASSERT_EQ(whatIsNotLinked(fine), "") << m.name;
 		}
 	}
@@ -241,8 +245,9 @@ TEST(Refine, WithoutFlips_IsManifoldOfTheSameTopologyAndKeepsTheOrderOfFaces)
 			// Descendants of a face: contiguous and in the order of the faces.
 			std::vector<Triangle> naive = naiveRefine(parent.table, r), got = facesOf(fine);
 			for (std::size_t begin = 0, f = 0; begin < got.size(); ++f) {
-				const auto n  = naiveFace(r, parent.table, static_cast<Index>(f), 0).size();
-				const auto at = static_cast<std::ptrdiff_t>(begin), end = at + static_cast<std::ptrdiff_t>(n);
+				const auto n   = naiveFace(r, parent.table, static_cast<Index>(f), 0).size();
+				const auto at  = static_cast<std::ptrdiff_t>(begin),
+				           end = at + static_cast<std::ptrdiff_t>(n);
 				ASSERT_EQ(
 				    sortedFaces({got.begin() + at, got.begin() + end}),
 				    sortedFaces({naive.begin() + at, naive.begin() + end}));

@@ -55,16 +55,17 @@ TEST_P(EveryFamily, RoundTrip_IsLatticeLosslessAndEveryLevelManifold)
 	const MeshData& mesh = GetParam().mesh;
 	const auto all       = everyPairOfOptions();
 	// Small meshes with all options, others with some, each with other ones.
-	const std::size_t stride = mesh.positions.size() <= 60 ? 1 : mesh.positions.size() <= 450 ? 3 : 9;
+	const std::size_t stride = mesh.positions.size() <= 60    ? 1
+	                           : mesh.positions.size() <= 450 ? 3
+	                                                          : 9;
 	for (std::size_t i = mesh.triangles.size() % stride; i < all.size(); i += stride)
 		ASSERT_EQ(whatFails(mesh, all[i], true), "") << nameOf(all[i]);
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    RoundTrip,
-    EveryFamily,
-    testing::ValuesIn(allFamilies()),
-    [](const auto& family) { return family.param.name; });
+    RoundTrip, EveryFamily, testing::ValuesIn(allFamilies()), [](const auto& family) {
+	    return family.param.name;
+    });
 
 TEST(RoundTrip, EveryCombinationOfOptionsIsLossless)
 {
@@ -118,10 +119,11 @@ TEST(RoundTrip, NoVertexMovesFartherThanHalfAStep)
 
 TEST(RoundTrip, ConnectivityOfEveryLevelIsTheSameWhateverTheLifting)
 {
-	for (const MeshData& mesh : {makeBumpySphere(400, 74), makeTerrain(300, 75), makeHoledPlate(2, 3)}) {
+	for (const MeshData& mesh :
+	     {makeBumpySphere(400, 74), makeTerrain(300, 75), makeHoledPlate(2, 3)}) {
 		EncodeOptions o;
-		o.wgc     = Wgc::Off;
-		o.lifting = kLiftingOff;
+		o.wgc           = Wgc::Off;
+		o.lifting       = kLiftingOff;
 		const auto lazy = levelsOf(encode(mesh, o)->bytes);
 		for (int lifting : {0, 1, 2}) {
 			o.lifting         = lifting;

@@ -13,7 +13,7 @@ namespace wavemesh::test {
 StageMesh stageMesh(const MeshData& mesh, int bits)
 {
 	StageMesh out;
-	out.table     = buildCornerTable(mesh.triangles, static_cast<Index>(mesh.positions.size())).value();
+	out.table = buildCornerTable(mesh.triangles, static_cast<Index>(mesh.positions.size())).value();
 	out.positions = quantise(mesh.positions, makeLattice(mesh.positions, bits, 0).value());
 	return out;
 }
@@ -65,7 +65,8 @@ std::string whatIsNotLinked(const CornerTable& t)
 Levels makeLevels(const MeshData& mesh, const GeometricalCriterion& criterion, int bits)
 {
 	const StageMesh fine = stageMesh(mesh, bits);
-	const auto steps     = coarsenAll(fine.table, fine.positions, criterion, [](double) { return true; });
+	const auto steps =
+	    coarsenAll(fine.table, fine.positions, criterion, [](double) { return true; });
 	BaseMesh base;
 	base.table = steps.empty() ? fine.table : steps.back().coarse;
 	base.positions.resize(base.table.vertexCount);

@@ -21,8 +21,8 @@ TEST(BaseSyntax, OfEveryFamily_ComesBackInTheCodedOrder)
 			const StageMesh stage = stageMesh(m.mesh, bits);
 			RangeEncoder encoder;
 			std::vector<Index> source;
-			const BaseMesh written =
-			    BaseSyntax<RangeEncoder>(encoder, bits).write({stage.table, stage.positions}, source);
+			const BaseMesh written = BaseSyntax<RangeEncoder>(encoder, bits)
+			                             .write({stage.table, stage.positions}, source);
 			const auto stream = encoder.finish();
 			RangeDecoder decoder(stream.data(), stream.size());
 			const auto read = BaseSyntax<RangeDecoder>(decoder, bits)
@@ -48,10 +48,11 @@ TEST(BaseSyntax, EveryPrefix_IsTruncated)
 	const StageMesh stage = stageMesh(makeFlippedSphere(60, 1), 10);
 	RangeEncoder encoder;
 	std::vector<Index> source;
-	(void) BaseSyntax<RangeEncoder>(encoder, 10).write({stage.table, stage.positions}, source);
+	(void)BaseSyntax<RangeEncoder>(encoder, 10).write({stage.table, stage.positions}, source);
 	const auto stream = encoder.finish();
 	for (std::size_t n = 0; n < stream.size(); ++n) {
-		const std::vector<std::uint8_t> cut(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(n));
+		const std::vector<std::uint8_t> cut(
+		    stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(n));
 		RangeDecoder decoder(cut.data(), cut.size());
 		const auto read = BaseSyntax<RangeDecoder>(decoder, 10)
 		                      .read(stage.table.vertexCount, stage.table.faceCount());
@@ -137,7 +138,8 @@ TEST(ConnectivitySyntax, OfRandomBytes_IsARefinementThatRefineCanDo)
 			RangeDecoder decoder(noise.data(), noise.size());
 			ConnectivityModels models;
 			Refinement r;
-			ConnectivitySyntax<RangeDecoder>(decoder, models, parent.table, parent.positions).code(r);
+			ConnectivitySyntax<RangeDecoder>(decoder, models, parent.table, parent.positions)
+			    .code(r);
 			if (decoder.exhausted())
 				continue;
 			const CornerTable fine = refine(parent.table, r);
@@ -168,13 +170,15 @@ TEST(DetailSyntax, AnyDetails_ComeBack)
 		RangeEncoder encoder;
 		auto copy = details;
 		EXPECT_EQ(
-		    DetailSyntax<RangeEncoder>(encoder, writeModels, parent.table, r, parent.positions).code(copy),
+		    DetailSyntax<RangeEncoder>(encoder, writeModels, parent.table, r, parent.positions)
+		        .code(copy),
 		    details.size());
 		const auto stream = encoder.finish();
 		RangeDecoder decoder(stream.data(), stream.size());
 		std::vector<LatticePoint> read(details.size(), LatticePoint {0, 0, 0});
 		ASSERT_EQ(
-		    DetailSyntax<RangeDecoder>(decoder, readModels, parent.table, r, parent.positions).code(read),
+		    DetailSyntax<RangeDecoder>(decoder, readModels, parent.table, r, parent.positions)
+		        .code(read),
 		    details.size());
 		ASSERT_FALSE(decoder.exhausted());
 		ASSERT_EQ(read, details) << m.name;
@@ -191,15 +195,17 @@ TEST(DetailSyntax, OfEveryPrefix_GivesWholeDetailsAndZeros)
 	DetailModels models;
 	RangeEncoder encoder;
 	DetailSyntax<RangeEncoder>(encoder, models, parent.table, r, parent.positions).code(details);
-	const auto stream    = encoder.finish();
-	std::size_t longest  = 0;
+	const auto stream   = encoder.finish();
+	std::size_t longest = 0;
 	for (std::size_t n = 0; n <= stream.size(); ++n) {
-		const std::vector<std::uint8_t> cut(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(n));
+		const std::vector<std::uint8_t> cut(
+		    stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(n));
 		RangeDecoder decoder(cut.data(), cut.size());
 		DetailModels fresh;
 		std::vector<LatticePoint> read(details.size(), LatticePoint {0, 0, 0});
 		const std::size_t whole =
-		    DetailSyntax<RangeDecoder>(decoder, fresh, parent.table, r, parent.positions).code(read);
+		    DetailSyntax<RangeDecoder>(decoder, fresh, parent.table, r, parent.positions)
+		        .code(read);
 		ASSERT_EQ(decoder.exhausted(), n < stream.size());
 		ASSERT_GE(whole, longest);
 		longest = whole;

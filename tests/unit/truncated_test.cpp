@@ -59,14 +59,15 @@ TEST_P(EveryPrefix, PrefixInTheLevelTable_IsTheShortestThatHoldsTheLevel)
 	ASSERT_EQ(levels.size(), table().size());
 	for (std::size_t j = 0; j < table().size(); ++j) {
 		DecodeOptions o;
-		o.level        = static_cast<int>(j);
-		const auto n   = static_cast<std::size_t>(table()[j].prefix);
+		o.level      = static_cast<int>(j);
+		const auto n = static_cast<std::size_t>(table()[j].prefix);
 		const ExactBuffer enough(file().data(), n), tooFew(file().data(), n - 1);
 		const auto back = decode(enough.data(), enough.size(), o);
 		ASSERT_TRUE(back.ok()) << j << ": " << back.status().what;
 		EXPECT_EQ(back->mesh.triangles, levels[j].mesh.triangles);
 		EXPECT_EQ(back->mesh.positions, levels[j].mesh.positions);
-		EXPECT_EQ(decode(tooFew.data(), tooFew.size(), o).status().code, StatusCode::Truncated) << j;
+		EXPECT_EQ(decode(tooFew.data(), tooFew.size(), o).status().code, StatusCode::Truncated)
+		    << j;
 	}
 }
 
@@ -74,7 +75,7 @@ TEST_P(EveryPrefix, VerticesThatArrived_AreExactWithoutLifting)
 {
 	if (GetParam().encoded.info.lifting != kLiftingOff)
 		GTEST_SKIP() << "lifting moves the parents as details arrive";
-	const auto levels = levelsOf(file());
+	const auto levels  = levelsOf(file());
 	std::size_t before = 0;
 	for (std::size_t n = 0; n <= file().size(); ++n) {
 		const ExactBuffer cut(file().data(), n);
@@ -116,8 +117,9 @@ TEST_P(EveryPrefix, ReadInfo_NeedsTheHeadAlone)
 		const ExactBuffer cut(file().data(), n);
 		const auto info = readInfo(cut.data(), cut.size());
 		ASSERT_EQ(
-		    info.status().code,
-		    n == head ? StatusCode::Ok : n == 0 ? StatusCode::NotWmc : StatusCode::Truncated);
+		    info.status().code, n == head ? StatusCode::Ok
+		                        : n == 0  ? StatusCode::NotWmc
+		                                  : StatusCode::Truncated);
 	}
 	EXPECT_LT(head, 300u);
 }
@@ -183,10 +185,9 @@ TEST_P(EveryPrefix, ReadInfo_SaysWhatEncodeSaid)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Truncated,
-    EveryPrefix,
-    testing::ValuesIn(smallFiles()),
-    [](const auto& small) { return small.param.name; });
+    Truncated, EveryPrefix, testing::ValuesIn(smallFiles()), [](const auto& small) {
+	    return small.param.name;
+    });
 
 } // namespace
 } // namespace wavemesh::test

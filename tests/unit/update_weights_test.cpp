@@ -30,7 +30,7 @@ public:
 		for (FaceCode& code : plain_.faceCode)
 			if (code == kFaceFlip1 || code == kFaceFlip2)
 				code = kFaceNone;
-		fine_ = refine(parent, plain_);
+		fine_    = refine(parent, plain_);
 		Index at = 0;
 		for (Index f = 0; f < parent.faceCount(); ++f) {
 			const int splits = faceShape(r.childOnEdge, f).splits;
@@ -95,8 +95,8 @@ public:
 		return std::sqrt(sum);
 	}
 
-	/// Least squares by the normal equations and Gaussian elimination. T = H and its neighbours holds
-	/// every row that is not zero, so all rows may take part.
+	/// Least squares by the normal equations and Gaussian elimination. T = H and its neighbours
+	/// holds every row that is not zero, so all rows may take part.
 	std::vector<double> solve(const std::set<Index>& support, const std::vector<double>& b) const
 	{
 		const std::vector<Index> h(support.begin(), support.end());
@@ -149,7 +149,7 @@ std::vector<double> weightsOf(const UpdateWeights& w, std::size_t child, Index c
 	return alpha;
 }
 
-template<class Check>
+template <class Check>
 void forManySplits(const Check& check)
 {
 	for (const MeshData& m :
@@ -200,12 +200,14 @@ TEST(UpdateWeights, OfWiderDiscs_AreNearlyAsGoodAsTheLeastSquaresSolution)
 				if (dense.parents()[i][2] != kNone || support.size() > 40)
 					continue;
 				const auto b        = dense.target(i);
-				const auto expected = dense.solve(support, b), found = weightsOf(w, i, parent.vertexCount);
+				const auto expected = dense.solve(support, b),
+				           found    = weightsOf(w, i, parent.vertexCount);
 				for (Index v = 0; v < parent.vertexCount; ++v)
 					if (support.count(v) == 0) {
 						ASSERT_EQ(found[v], 0) << "outside the disc";
 					}
-				const double best = dense.residual(expected, b), zero = dense.residual({std::vector<double>(b.size(), 0)}, b);
+				const double best = dense.residual(expected, b),
+				             zero = dense.residual({std::vector<double>(b.size(), 0)}, b);
 				ASSERT_LE(dense.residual(found, b), best + 0.03 * zero) << "disc " << disc;
 			}
 		}
@@ -214,11 +216,11 @@ TEST(UpdateWeights, OfWiderDiscs_AreNearlyAsGoodAsTheLeastSquaresSolution)
 
 TEST(UpdateWeights, OnRegularSubdivision_AreSymmetric)
 {
-	const auto levels       = makeLevels(makeIcosphere(8));
-	const ReplayedLevel& l  = levels.replay.levels.back();
-	const Parents parents   = parentsOf(l.parent, l.refinement);
-	const UpdateWeights w   = updateWeights(l.parent, l.refinement, parents, 0);
-	const auto valence      = valences(l.parent);
+	const auto levels      = makeLevels(makeIcosphere(8));
+	const ReplayedLevel& l = levels.replay.levels.back();
+	const Parents parents  = parentsOf(l.parent, l.refinement);
+	const UpdateWeights w  = updateWeights(l.parent, l.refinement, parents, 0);
+	const auto valence     = valences(l.parent);
 	for (std::size_t i = 0; i < parents.size(); ++i) {
 		ASSERT_EQ(w.begin[i + 1] - w.begin[i], 2u);
 		if (valence[parents[i][0]] == 6 && valence[parents[i][1]] == 6) {

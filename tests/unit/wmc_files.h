@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Small files to damage, and the layout of a file as far as damaging needs it (docs/wmc_format.md).
+/// Small files to damage, and the layout of a file as far as damaging needs it
+/// (docs/wmc_format.md).
 #pragma once
 
 #include <wavemesh/codec.h>
@@ -30,11 +31,11 @@ private:
 /// Where a chunk lies in a file.
 struct ChunkPlace
 {
-	std::uint8_t type       = 0;
-	std::size_t begin       = 0; ///< of its type
-	std::size_t payload     = 0;
-	std::size_t checksum    = 0;
-	std::size_t end         = 0;
+	std::uint8_t type    = 0;
+	std::size_t begin    = 0; ///< of its type
+	std::size_t payload  = 0;
+	std::size_t checksum = 0;
+	std::size_t end      = 0;
 };
 /// The chunks of a whole file, head first; reads types and lengths only.
 std::vector<ChunkPlace> chunksOf(const Bytes& file);
@@ -49,8 +50,8 @@ struct SmallFile
 	MeshData original;
 	EncodedMesh encoded;
 };
-/// Files of a few hundred bytes: closed, open, several components, lifting off and on, one level and
-/// several, one chunk and several.
+/// Files of a few hundred bytes: closed, open, several components, lifting off and on, one level
+/// and several, one chunk and several.
 std::vector<SmallFile> smallFiles();
 
 } // namespace wavemesh::test

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "golden_files.h"
+
+#include "codec_check.h"
+#include "container/container.h"
+#include "mesh_families.h"
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+namespace wavemesh::test {
+
+Bytes readFile(const std::string& path)
+{
+	std::ifstream in(path, std::ios::binary);
+	if (!in)
+		throw std::runtime_error("cannot read " + path);
+	return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+void writeFile(const std::string& path, const Bytes& bytes)
+{
+	std::ofstream out(path, std::ios::binary);
+	out.write(
+	    reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+	if (!out.flush())
+		throw std::runtime_error("cannot write " + path);
+}
+
+Golden outcomeOf(const Golden& golden)
+{
+	Golden out = golden;
+	const ExactBuffer data(golden.bytes.data(), golden.bytes.size());
+	const auto back = decode(data.data(), data.size());
+	out.status      = static_cast<int>(back.status().code);
+	out.level       = back.hasValue() ? back->level : -1;
+	out.digest      = back.hasValue() ? fingerprint(back->mesh) : 0;
+	return out;
+}
+
+std::string indexLine(const Golden& g)
+{
+	std::ostringstream line;
+	line << g.name << ' ' << g.status << ' ' << g.level << ' ' << std::hex << g.digest;
+	return line.str();
+}
+
+namespace {
+
+Bytes fileOf(const MeshData& mesh, int bits, int lifting, Wgc wgc, double step = 0)
+{
+	EncodeOptions o;
+	o.bits    = bits;
+	o.lifting = lifting;
+	o.wgc     = wgc;
+	o.step    = step;
+	return encode(mesh, o).value().bytes;
+}
+
+std::vector<Golden> goodOnes()
+{
+	std::vector<Golden> all;
+	const auto add = [&](const char* name, const Bytes& bytes) {
+		all.push_back({std::string("good_") + name + ".wmc", bytes});
+	};
+	add("triangle_1_bit", fileOf(makeTriangle(), 1, kLiftingOff, Wgc::Off));
+	add("tetrahedron_step", fileOf(makeTetrahedron(), 12, 0, Wgc::Off, 0.1));
+	add("sphere_lazy", fileOf(makeBumpySphere(160, 1), 12, kLiftingOff, Wgc::Off));
+	add("sphere_lifted_0", fileOf(makeBumpySphere(160, 1), 12, 0, Wgc::Off));
+	add("sphere_lifted_1", fileOf(makeBumpySphere(160, 1), 12, 1, Wgc::Off));
+	add("sphere_lifted_2", fileOf(makeBumpySphere(160, 1), 12, 2, Wgc::Off));
+	add("star_prism_wgc", fileOf(makeStarPrism(9, 4), 10, 0, Wgc::On));
+	add("terrain_wgc", fileOf(makeTerrain(150, 2), 16, 0, Wgc::On));
+	add("flips", fileOf(makeFlippedSphere(150, 3), 8, 0, Wgc::Off));
+	add("kleetope_centres", fileOf(makeKleetope(makeIcosphere(2)), 10, 1, Wgc::Off));
+	add("genus_2", fileOf(makeHoledPlate(2, 2), 10, 0, Wgc::Auto));
+	add("components_24_bits",
+	    fileOf(
+	        joined({makeTorus(6, 5), moved(makeGrid(5, 5), 3, 0, 0), moved(makeFan(7), 0, 4, 0)}),
+	        24, kLiftingOff, Wgc::Off));
+	add("far_away_wide_head", fileOf(moved(makeIcosphere(2), 1e7 + 0.1, 0.3, -5), 12, 0, Wgc::Off));
+	return all;
+}
+
+/// Changes the head of a file and writes it anew, the levels as they are.
+template <class Change>
+Bytes withHead(const Bytes& file, const Change& change)
+{
+	std::size_t end = 0;
+	Head head       = readHead(file.data(), file.size(), end).value();
+	change(head);
+	Bytes out;
+	writeHead(head, out);
+	out.insert(out.end(), file.begin() + static_cast<std::ptrdiff_t>(end), file.end());
+	return out;
+}
+
+Bytes cutAt(const Bytes& file, std::size_t size)
+{
+	return {file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size)};
+}
+
+std::vector<Golden> badOnes()
+{
+	std::vector<Golden> all;
+	const auto add = [&](const char* name, const Bytes& bytes, StatusCode code) {
+		all.push_back({std::string("bad_") + name + ".wmc", bytes, static_cast<int>(code)});
+	};
+	const EncodedMesh whole = encode(makeFlippedSphere(110, 15)).value();
+	const Bytes& file       = whole.bytes;
+	const auto chunks       = chunksOf(file);
+	const auto mended       = [&](std::size_t chunk, std::size_t at, std::uint8_t value) {
+        Bytes changed                       = file;
+        changed[chunks[chunk].payload + at] = value;
+        mendChecksum(changed, chunks[chunk]);
+        return changed;
+	};
+	const std::string ply = "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n";
+	add("empty", {}, StatusCode::NotWmc);
+	add("ply", {ply.begin(), ply.end()}, StatusCode::NotWmc);
+	Bytes text = file;
+	text.erase(text.begin() + 4); // the carriage return
+	add("text_mode", text, StatusCode::Corrupt);
+	add("newer_major", mended(0, 0, 1), StatusCode::VersionTooNew);
+	add("bits_0", mended(0, 3, 0), StatusCode::Corrupt);
+	add("bits_25", mended(0, 3, 25), StatusCode::Corrupt);
+	add("unknown_mode", mended(0, 2, 7), StatusCode::Corrupt);
+	add("cut_in_magic", cutAt(file, 5), StatusCode::Truncated);
+	add("cut_in_head", cutAt(file, chunks[0].checksum - 1), StatusCode::Truncated);
+	add("cut_after_head", cutAt(file, chunks[0].end), StatusCode::Truncated);
+	add("cut_in_a_level", cutAt(file, file.size() - file.size() / 4), StatusCode::Truncated);
+	add("cut_in_the_last_checksum", cutAt(file, file.size() - 2), StatusCode::Truncated);
+	Bytes flipped = file;
+	flipped[chunks[0].payload + 6] ^= 1;
+	add("head_bit", flipped, StatusCode::ChecksumMismatch);
+	flipped = file;
+	flipped[chunks[1].payload + 6] ^= 1;
+	add("level_bit", flipped, StatusCode::ChecksumMismatch);
+	Bytes critical   = file;
+	const Bytes next = makeChunk('Q', {1, 2, 3});
+	critical.insert(
+	    critical.begin() + static_cast<std::ptrdiff_t>(chunks[0].end), next.begin(), next.end());
+	add("unknown_critical_chunk", critical, StatusCode::Corrupt);
+	add("other_digest", withHead(file, [](Head& h) { ++h.digest; }), StatusCode::ChecksumMismatch);
+	add("one_vertex_more", withHead(file, [](Head& h) { ++h.rows.back().vertices; }),
+	    StatusCode::Corrupt);
+	add("one_face_more", withHead(file, [](Head& h) { ++h.rows.back().faces; }),
+	    StatusCode::Corrupt);
+	add("base_too_large",
+	    withHead(file, [](Head& h) { h.rows[0].vertices = 3 * h.rows[0].faces + 1; }),
+	    StatusCode::Corrupt);
+	add("beyond_the_limit",
+	    withHead(
+	        file,
+	        [](Head& h) {
+		        h.rows.resize(1);
+		        h.rows[0].vertices  = 300'000'000;
+		        h.rows[0].faces     = 600'000'000;
+		        h.rows[0].endsChunk = true;
+	        }),
+	    StatusCode::LimitExceeded);
+	return all;
+}
+
+} // namespace
+
+std::vector<Golden> makeGoldens()
+{
+	std::vector<Golden> all = goodOnes(), bad = badOnes();
+	all.insert(all.end(), bad.begin(), bad.end());
+	for (Golden& g : all) {
+		const Golden outcome = outcomeOf(g);
+		if (outcome.status != g.status)
+			throw std::runtime_error(
+			    g.name + " gives status " + std::to_string(outcome.status) + " and not " +
+			    std::to_string(g.status));
+		g = outcome;
+	}
+	return all;
+}
+
+} // namespace wavemesh::test

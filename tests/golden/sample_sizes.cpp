@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sample_sizes.h"
+
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace wavemesh::test {
+
+const std::vector<std::string> kSamples {"blob",   "bracket", "island", "pebble",
+                                         "pieces", "pretzel", "vase"};
+
+const std::vector<Configuration> kConfigurations {
+    {"I", kLiftingOff, Wgc::Off}, {"II", 0, Wgc::Off}, {"III", 0, Wgc::On}};
+
+namespace {
+
+template <class T>
+T take(std::istream& in)
+{
+	T x {};
+	in.read(reinterpret_cast<char*>(&x), sizeof x); // little-endian, as the file
+	return x;
+}
+
+struct PlyHeader
+{
+	std::size_t vertices = 0, faces = 0;
+	std::size_t behindPosition = 0; ///< bytes of a vertex after its coordinates
+};
+
+PlyHeader readHeader(std::istream& in)
+{
+	PlyHeader h;
+	bool ofVertex = false;
+	for (std::string line; std::getline(in, line) && line != "end_header";) {
+		std::istringstream words(line);
+		std::string key, type, name;
+		words >> key >> type >> name;
+		if (key == "element") {
+			ofVertex                          = type == "vertex";
+			(ofVertex ? h.vertices : h.faces) = std::stoul(name);
+		}
+		else if (key == "property" && ofVertex && name != "x" && name != "y" && name != "z")
+			h.behindPosition += type == "uchar" ? 1 : 4;
+	}
+	return h;
+}
+
+} // namespace
+
+MeshData readSamplePly(const std::string& path)
+{
+	std::ifstream in(path, std::ios::binary);
+	if (!in)
+		throw std::runtime_error("cannot read " + path);
+	const PlyHeader h = readHeader(in);
+	MeshData m;
+	for (std::size_t v = 0; v < h.vertices; ++v) {
+		m.positions.emplace_back();
+		for (double& x : m.positions.back())
+			x = double(take<float>(in));
+		in.ignore(static_cast<std::streamsize>(h.behindPosition));
+	}
+	for (std::size_t f = 0; f < h.faces; ++f) {
+		if (take<std::uint8_t>(in) != 3)
+			throw std::runtime_error(path + " is not made of triangles");
+		m.triangles.emplace_back();
+		for (std::uint32_t& v : m.triangles.back())
+			v = static_cast<std::uint32_t>(take<std::int32_t>(in));
+	}
+	if (!in)
+		throw std::runtime_error(path + " ends early");
+	return m;
+}
+
+EncodedMesh encodeSample(const MeshData& mesh, const Configuration& configuration)
+{
+	EncodeOptions o;
+	o.bits    = 12;
+	o.lifting = configuration.lifting;
+	o.wgc     = configuration.wgc;
+	return encode(mesh, o).value();
+}
+
+} // namespace wavemesh::test

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The sizes of the sample meshes' files in the paper's configurations, at 12 bits.
+#pragma once
+
+#include <wavemesh/codec.h>
+
+#include <string>
+#include <vector>
+
+namespace wavemesh::test {
+
+/// A binary little-endian PLY as samples/generate writes it: positions as floats, triangles.
+MeshData readSamplePly(const std::string& path);
+
+extern const std::vector<std::string> kSamples; ///< names without suffix
+
+struct Configuration
+{
+	const char* name;
+	int lifting;
+	Wgc wgc;
+};
+extern const std::vector<Configuration> kConfigurations; ///< I, II, III of the paper
+
+EncodedMesh encodeSample(const MeshData& mesh, const Configuration& configuration);
+
+} // namespace wavemesh::test
