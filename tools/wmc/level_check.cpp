@@ -62,8 +62,12 @@ std::string whatVcgFindsWrong(const MeshData& mesh, Topology& topology)
 	VcgMesh m;
 	fromMeshData(mesh, m);
 	vcg::tri::UpdateTopology<VcgMesh>::FaceFace(m);
-	if (const int n = Clean::CountNonManifoldEdgeFF(m))
-		return std::to_string(n) + " edges are not manifold";
+	// Clean::CountNonManifoldEdgeFF takes three of the faces' flags for good with every call.
+	for (const VcgFace& f : m.face)
+		for (int k = 0; k < 3; ++k)
+			if (!vcg::face::IsManifold(f, k))
+				return "an edge of face " + std::to_string(vcg::tri::Index(m, f)) +
+				       " is not manifold";
 	if (const int n = Clean::CountNonManifoldVertexFF(m))
 		return std::to_string(n) + " vertices are not manifold";
 	if (!Clean::IsCoherentlyOrientedMesh(m))

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstring>
 #include <filesystem>
 
 namespace wavemesh::tool {
@@ -53,6 +54,32 @@ bool showImport(const int percent, const char*)
 	return true;
 }
 
+/// Text by VCGLib; binary here, because its importer looks for a colour beyond the end of its
+/// buffer in every binary file. @pre whatIsWrongWithStl() found nothing
+int importStl(VcgMesh& m, const std::string& path)
+{
+	constexpr std::size_t kHead = 84, kFacet = 50, kNormal = 12;
+	const Bytes file         = readFile(path);
+	const std::size_t facets = file.size() < kHead ? 0 : (file.size() - kHead) / kFacet;
+	std::uint32_t declared   = 0;
+	if (file.size() >= kHead)
+		std::memcpy(&declared, file.data() + kHead - 4, 4);
+	if (file.size() < kHead || file.size() != kHead + kFacet * std::size_t {declared})
+		return io::ImporterSTL<VcgMesh>::OpenAscii(m, path.c_str(), showImport);
+	MeshData data;
+	for (std::size_t f = 0; f < facets; ++f) {
+		const auto first = static_cast<std::uint32_t>(3 * f);
+		data.triangles.push_back({first, first + 1, first + 2});
+		for (std::size_t k = 0; k < 3; ++k) {
+			float p[3];
+			std::memcpy(p, file.data() + kHead + kFacet * f + kNormal + sizeof p * k, sizeof p);
+			data.positions.push_back({p[0], p[1], p[2]});
+		}
+	}
+	fromMeshData(data, m);
+	return 0;
+}
+
 /// What VCGLib's importer says: empty, or why the mesh is refused.
 std::string import(VcgMesh& m, const std::string& path, Format format)
 {
@@ -76,7 +103,7 @@ std::string import(VcgMesh& m, const std::string& path, Format format)
 		return error ? io::ImporterOFF<VcgMesh>::ErrorMsg(error) : "";
 	}
 	case Format::Stl: {
-		const int error = io::ImporterSTL<VcgMesh>::Open(m, path.c_str(), mask, showImport);
+		const int error = importStl(m, path);
 		if (error)
 			return io::ImporterSTL<VcgMesh>::ErrorMsg(error);
 		vcg::tri::Clean<VcgMesh>::RemoveDuplicateVertex(m);

@@ -72,10 +72,38 @@ bool isNumber(std::string_view word)
 	return end != s.c_str();
 }
 
+/// The importer counts vertices by the look of raw lines before it reads them: an indented one is
+/// read, and stored past the end. And it looks for the last character of an empty line after `\\`.
+std::string whatIsWrongWithObjLines(const Bytes& file)
+{
+	const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+	std::uint64_t number = 0;
+	bool wasJoined       = false;
+	for (std::size_t at = 0; at <= text.size(); ++number) {
+		const std::size_t end = std::min(text.find('\n', at), text.size());
+		std::string_view line = text.substr(at, end - at);
+		at                    = end + 1;
+		if (wasJoined && (line.empty() || line == "\r"))
+			return "line " + std::to_string(number) + " continues on an empty line";
+		const std::size_t first = line.find_first_not_of(" \t\r");
+		const bool isVertex     = first != line.npos && line[first] == 'v' &&
+		                      (first + 1 == line.size() || line[first + 1] == ' ' ||
+		                       line[first + 1] == '\t' || line[first + 1] == '\r');
+		if (isVertex && (first > 0 || wasJoined))
+			return "line " + std::to_string(number + 1) + ": a vertex must begin its line";
+		if (!line.empty() && line.back() == '\r')
+			line.remove_suffix(1);
+		wasJoined = !line.empty() && line.back() == '\\';
+	}
+	return {};
+}
+
 } // namespace
 
 std::string whatIsWrongWithObj(const Bytes& file)
 {
+	if (std::string s = whatIsWrongWithObjLines(file); !s.empty())
+		return s;
 	Text text(file);
 	long long vertices = 0;
 	while (true) {
