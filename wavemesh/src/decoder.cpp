@@ -27,8 +27,12 @@ struct Decoder::State
 	std::size_t offset = 0; ///< of the next chunk
 	Chunk chunk;            ///< the one being read
 	RangeDecoder coder;
-	ConnectivityModels connectivityModels;
-	DetailModels detailModels;
+	struct Models
+	{
+		ConnectivityModels connectivity;
+		DetailModels details;
+	};
+	std::unique_ptr<Models> models; ///< megabytes: made for the first split, when there is one
 
 	const LevelRow& row(int l) const { return head.rows[std::size_t(l)]; }
 
@@ -125,7 +129,10 @@ Status Decoder::State::readSplit()
 {
 	const LevelRow& target = row(level + 1);
 	Refinement refinement;
-	ConnectivitySyntax<RangeDecoder>(coder, connectivityModels, table, positions).code(refinement);
+	if (!models)
+		models = std::make_unique<Models>();
+	ConnectivitySyntax<RangeDecoder>(coder, models->connectivity, table, positions)
+	    .code(refinement);
 	if (coder.exhausted())
 		return ended("the connectivity");
 	if (refinement.childVertices != target.vertices)
@@ -137,7 +144,7 @@ Status Decoder::State::readSplit()
 	const Parents parents       = parentsOf(table, refinement);
 	const UpdateWeights weights = updateWeights(table, refinement, parents, head.lifting);
 	std::vector<LatticePoint> details(parents.size(), {0, 0, 0});
-	DetailSyntax<RangeDecoder>(coder, detailModels, table, refinement, positions).code(details);
+	DetailSyntax<RangeDecoder>(coder, models->details, table, refinement, positions).code(details);
 	Status cut;
 	if (coder.exhausted()) {
 		cut = ended("the details");
