@@ -13,15 +13,34 @@ constexpr std::size_t kHeader = alignof(std::max_align_t);
 
 } // namespace
 
-void* operator new(std::size_t size)
+// All forms, so that none of the standard library's own (or a sanitizer's) meets one of these.
+
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
 {
 	auto* block = static_cast<char*>(std::malloc(size + kHeader));
 	if (!block)
-		throw std::bad_alloc();
+		return nullptr;
 	*reinterpret_cast<std::size_t*>(block) = size;
 	alive += size;
 	highest = alive > highest ? alive : highest;
 	return block + kHeader;
+}
+
+void* operator new(std::size_t size)
+{
+	if (void* p = operator new(size, std::nothrow))
+		return p;
+	throw std::bad_alloc();
+}
+
+void* operator new[](std::size_t size)
+{
+	return operator new(size);
+}
+
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept
+{
+	return operator new(size, std::nothrow);
 }
 
 void operator delete(void* p) noexcept
@@ -34,6 +53,26 @@ void operator delete(void* p) noexcept
 }
 
 void operator delete(void* p, std::size_t) noexcept
+{
+	operator delete(p);
+}
+
+void operator delete(void* p, const std::nothrow_t&) noexcept
+{
+	operator delete(p);
+}
+
+void operator delete[](void* p) noexcept
+{
+	operator delete(p);
+}
+
+void operator delete[](void* p, std::size_t) noexcept
+{
+	operator delete(p);
+}
+
+void operator delete[](void* p, const std::nothrow_t&) noexcept
 {
 	operator delete(p);
 }

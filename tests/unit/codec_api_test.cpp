@@ -98,8 +98,7 @@ TEST(Encode, SameInput_GivesTheSameBytes)
 	EXPECT_EQ(encode(mesh)->bytes, encode(mesh)->bytes);
 }
 
-// ---- progress
-// -------------------------------------------------------------------------------------
+// ---- progress ----
 
 TEST(Progress, OfEncode_IsMonotoneFrom0To1)
 {
@@ -166,8 +165,7 @@ TEST(Progress, OfDecode_IsMonotoneAndCancels)
 	}
 }
 
-// ---- limits
-// ---------------------------------------------------------------------------------------
+// ---- limits ----
 
 TEST(DecodeLimits, RefuseMoreVerticesOrFacesThanAllowed)
 {

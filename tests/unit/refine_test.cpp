@@ -144,8 +144,7 @@ TEST(CanFlip, RefusesBoundaryUsedFacesAndFacesWithTwoOrMoreSplits)
 	EXPECT_FALSE(canFlip(parent, r, flipped, 1)) << "1:3 behind";
 }
 
-// ---- against a naive refinement with sets of triangles
-// --------------------------------------------
+// ---- against a naive refinement with sets of triangles ----
 
 std::vector<Triangle>
 naiveFace(const Refinement& r, const CornerTable& parent, Index f, Index centre)
