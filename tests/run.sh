@@ -4,6 +4,10 @@
 # and in MeshLab's window, and the codec's tests again under sanitizers.
 # usage: tests/run.sh [arguments for ctest, such as -R io_wavemesh]
 set -euo pipefail
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+	sed -n '3,5s/^# //p' "${BASH_SOURCE[0]}"
+	exit 0
+fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # shellcheck source=cmake/setup.sh

@@ -3,7 +3,7 @@
 # Writes the sample meshes and their .wmc anew; to be run, and the result committed, when a shape or
 # the file format changes.
 set -eu
-if [ $# -ne 1 ]; then
+if [ $# -ne 1 ] || [ ! -x "$1/wmc" ]; then
 	echo "usage: samples/generate/generate.sh BUILD   (a build folder with wmc and generate_samples)" >&2
 	exit 2
 fi

@@ -7,6 +7,7 @@
 #include "info_json.h"
 #include "mesh_files.h"
 
+#include <filesystem>
 #include <memory>
 
 namespace wavemesh::tool {
@@ -21,6 +22,9 @@ struct Encode
 
 	int run() const
 	{
+		std::error_code ignored;
+		if (std::filesystem::equivalent(in, out, ignored))
+			throw UsageError(out + ": this is the mesh to encode; name another file to write");
 		const MeshData mesh = loadMesh(in);
 		double seconds = 0, back = 0;
 		const EncodedMesh file = encodeMesh(in, mesh, codec.toEncodeOptions(), &seconds);
