@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Versions, unknown chunks and foreign data; the error figure of a level.
 #include "codec_check.h"
-#include "container/byte_io.h"
 #include "container/container.h"
-#include "mesh_families.h"
 #include "rng.h"
+#include "stage_meshes.h"
+#include "wavelet/lifting.h"
 #include "wmc_files.h"
 
 #include <gtest/gtest.h>
@@ -160,19 +160,29 @@ TEST(ErrorCode, OfSumsThatDoNotFit_IsTheLargest)
 
 TEST(ErrorFigure, OfALevel_IsTheRootMeanSquareOfTheDetailsItLacks)
 {
+	const MeshData mesh = makeBumpySphere(400, 113);
 	EncodeOptions o;
-	o.lifting          = kLiftingOff; // then a detail is a vertex less the middle of its parents
-	const auto file    = encode(makeBumpySphere(400, 113), o);
-	const auto& levels = file->info.levels;
-	ASSERT_GE(levels.size(), 3u);
-	for (std::size_t j = 0; j + 1 < levels.size(); ++j) {
-		// The prefix that ends with the connectivity of level j + 1 puts new vertices on the
-		// middles.
-		EXPECT_GT(levels[j].error, 0);
-		EXPECT_GE(levels[j].error, levels[j + 1].error);
+	o.lifting       = kLiftingOff;
+	o.wgc           = Wgc::Off;
+	const auto file = encode(mesh, o);
+	const Levels l  = makeLevels(mesh, {}, o.bits);
+	ASSERT_EQ(file->info.levels.size(), l.replay.levels.size() + 1);
+	double sum = 0; // of the details of all splits down to this one
+	for (std::size_t j = l.replay.levels.size(); j-- > 0;) {
+		const ReplayedLevel& level = l.replay.levels[j];
+		const Parents parents      = parentsOf(level.parent, level.refinement);
+		for (std::size_t i = 0; i < parents.size(); ++i) {
+			const LatticePoint m = middle(l.positions, parents[i]);
+			const LatticePoint p = l.positions[level.refinement.parentVertices + i];
+			for (std::size_t k = 0; k < 3; ++k)
+				sum += double(p[k] - m[k]) * double(p[k] - m[k]);
+		}
+		const double truth =
+		    file->info.step * std::sqrt(sum / static_cast<double>(mesh.positions.size()));
+		EXPECT_LE(file->info.levels[j].error, truth * (1 + 1e-9)) << j;
+		EXPECT_GE(file->info.levels[j].error, truth * (1 - 1.0 / 8)) << j;
 	}
-	EXPECT_EQ(levels.back().error, 0);
-	EXPECT_LT(levels[0].error, 3) << "model units: the sphere has the radius one";
+	EXPECT_EQ(file->info.levels.back().error, 0);
 }
 
 } // namespace
