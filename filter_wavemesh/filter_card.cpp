@@ -7,43 +7,38 @@ namespace wavemesh {
 namespace {
 
 constexpr char kReference[] =
-	"<br>See:<br><i>S. Valette, R. Prost</i><br>"
-	"<b>\"A Wavelet-Based Progressive Compression Scheme for Triangle Meshes: Wavemesh\"</b><br>"
-	"IEEE Transactions on Visualization and Computer Graphics, 2004.";
+    "<br>See:<br><i>S. Valette, R. Prost</i><br>"
+    "<b>\"A Wavelet-Based Progressive Compression Scheme for Triangle Meshes: Wavemesh\"</b><br>"
+    "IEEE Transactions on Visualization and Computer Graphics, 2004.";
 
 const FilterCard kSimplify = {
-	"Simplification: Wavemesh",
-	"meshing_decimation_wavemesh",
-	QString(
-		"Replaces the mesh by a coarser level of its own hierarchy, made by inverse irregular "
-		"subdivision: over the whole mesh, groups of two, three or four faces are merged into one. "
-		"The target is reached by the nearest level, not by an exact count. If that is the finest "
-		"level, the mesh stays as it is.<br>") +
-		kReference,
-	FilterPlugin::Remeshing,
-	MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE};
+    "Simplification: Wavemesh", "meshing_decimation_wavemesh",
+    QString(
+        "Replaces the mesh by a coarser level of its own hierarchy, made by inverse irregular "
+        "subdivision: over the whole mesh, groups of two, three or four faces are merged into one. "
+        "The target is reached by the nearest level, not by an exact count. If that is the finest "
+        "level, the mesh stays as it is.<br>") +
+        kReference,
+    FilterPlugin::Remeshing, MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE};
 
 const FilterCard kBrowse = {
-	"Wavemesh: Browse Levels",
-	"apply_wavemesh_level",
-	"Shows the layer at a level of detail: tick <i>Preview</i> and drag the slider. 0 is the base "
-	"mesh, the coarsest; the finest level is the layer as it was, colours and all. Nothing is lost "
-	"in either direction.<br>"
-	"A layer opened from a .wmc file has its levels at hand; those of another layer were made when "
-	"this dialog opened. Colours and selections made on a coarser level last while it is shown; a "
-	"layer whose shape was edited gets new levels, made from what it shows.",
-	FilterPlugin::Remeshing | FilterPlugin::Layer,
-	// The preview is offered only to filters that change no counts. It would restore what is named
-	// here; the levels themselves are restored by LayerLevels. The true mask goes out when applied.
-	MeshModel::MM_TRANSFMATRIX};
+    "Wavemesh: Browse Levels", "apply_wavemesh_level",
+    "Shows the layer at a level of detail: tick <i>Preview</i> and drag the slider. 0 is the base "
+    "mesh, the coarsest; the finest level is the layer as it was, colours and all. Nothing is lost "
+    "in either direction.<br>"
+    "A layer opened from a .wmc file has its levels at hand; those of another layer were made when "
+    "this dialog opened. Colours and selections made on a coarser level last while it is shown; a "
+    "layer whose shape was edited gets new levels, made from what it shows.",
+    FilterPlugin::Remeshing | FilterPlugin::Layer,
+    // The preview is offered only to filters that change no counts. It would restore what is named
+    // here; the levels themselves are restored by LayerLevels. The true mask goes out when applied.
+    MeshModel::MM_TRANSFMATRIX};
 
 const FilterCard kLayers = {
-	"Wavemesh: Layers from Levels",
-	"generate_wavemesh_levels",
-	"Makes one new layer of each chosen level of the layer, from the base mesh (level 0) up to the "
-	"finest level. The layer itself is not changed, and the new ones can be browsed as well.",
-	FilterPlugin::Layer | FilterPlugin::MeshCreation,
-	MeshModel::MM_NONE};
+    "Wavemesh: Layers from Levels", "generate_wavemesh_levels",
+    "Makes one new layer of each chosen level of the layer, from the base mesh (level 0) up to the "
+    "finest level. The layer itself is not changed, and the new ones can be browsed as well.",
+    FilterPlugin::Layer | FilterPlugin::MeshCreation, MeshModel::MM_NONE};
 
 } // namespace
 
@@ -51,10 +46,14 @@ const FilterCard& filterCard(int filter)
 {
 	static const FilterCard none = {};
 	switch (filter) {
-	case FilterWavemeshPlugin::FP_SIMPLIFY: return kSimplify;
-	case FilterWavemeshPlugin::FP_BROWSE: return kBrowse;
-	case FilterWavemeshPlugin::FP_LAYERS: return kLayers;
-	default: return none;
+	case FilterWavemeshPlugin::FP_SIMPLIFY:
+		return kSimplify;
+	case FilterWavemeshPlugin::FP_BROWSE:
+		return kBrowse;
+	case FilterWavemeshPlugin::FP_LAYERS:
+		return kLayers;
+	default:
+		return none;
 	}
 }
 

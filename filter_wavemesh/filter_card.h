@@ -9,11 +9,11 @@ namespace wavemesh {
 
 struct FilterCard
 {
-	QString name;          ///< in the menu
-	QString pythonName;    ///< in scripts
-	QString info;          ///< on top of the dialog, HTML
-	int     classes;       ///< FilterPlugin::FilterClass, or'ed: the submenus
-	int     postCondition; ///< MeshModel::MeshElement, or'ed: decides whether there is a preview
+	QString name;       ///< in the menu
+	QString pythonName; ///< in scripts
+	QString info;       ///< on top of the dialog, HTML
+	int classes;        ///< FilterPlugin::FilterClass, or'ed: the submenus
+	int postCondition;  ///< MeshModel::MeshElement, or'ed: decides whether there is a preview
 };
 
 /// @param filter  FilterWavemeshPlugin::Filters; another one gives an empty card

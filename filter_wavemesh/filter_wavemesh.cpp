@@ -53,10 +53,10 @@ private:
 /// What a layer shows, for result maps and the log.
 struct Shown
 {
-	const MeshModel&  layer;
+	const MeshModel& layer;
 	const StreamInfo& info;
-	int               level;
-	std::uint64_t     streamBytes; ///< less than info.bytes if the stream is cut
+	int level;
+	std::uint64_t streamBytes; ///< less than info.bytes if the stream is cut
 
 	/// Of a level that is cut, and in part predicted, the error is that of the one below it.
 	double error() const
@@ -72,23 +72,19 @@ struct Shown
 	std::map<std::string, QVariant> results() const
 	{
 		return {
-			{"level", level},
-			{"finest_level", info.finestLevel()},
-			{"vertices", layer.cm.vn},
-			{"faces", layer.cm.fn},
-			{"bytes", countValue(bytes())},
-			{"error", error()}};
+		    {"level", level},       {"finest_level", info.finestLevel()}, {"vertices", layer.cm.vn},
+		    {"faces", layer.cm.fn}, {"bytes", countValue(bytes())},       {"error", error()}};
 	}
 	std::string sentence() const
 	{
 		return QString("Level %1 of %2: %3 vertices, %4 faces, %5 bytes, error %6.")
-			.arg(level)
-			.arg(info.finestLevel())
-			.arg(layer.cm.vn)
-			.arg(layer.cm.fn)
-			.arg(bytes())
-			.arg(error(), 0, 'g', 3)
-			.toStdString();
+		    .arg(level)
+		    .arg(info.finestLevel())
+		    .arg(layer.cm.vn)
+		    .arg(layer.cm.fn)
+		    .arg(bytes())
+		    .arg(error(), 0, 'g', 3)
+		    .toStdString();
 	}
 };
 
@@ -149,8 +145,8 @@ int FilterWavemeshPlugin::postCondition(const QAction* action) const
 RichParameterList
 FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshDocument& document)
 {
-	const MeshModel   none(-1, QString(), QString());
-	const MeshModel&  layer = document.mm() != nullptr ? *document.mm() : none;
+	const MeshModel none(-1, QString(), QString());
+	const MeshModel& layer = document.mm() != nullptr ? *document.mm() : none;
 	RichParameterList list;
 	switch (ID(action)) {
 	case FP_SIMPLIFY:
@@ -160,24 +156,27 @@ FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshDocumen
 	case FP_BROWSE: {
 		const auto [finest, shown] = levelRange(layer);
 		list.addParam(RichDynamicFloat(
-			"level", Scalarm(shown), 0, Scalarm(std::max(finest, 1)),
-			QString("Level (0 coarsest, %1 finest)").arg(finest),
-			"0 is the base mesh, the coarsest; the largest value is the finest level, which is the "
-			"layer as it was. In scripts -1 is the finest, too. Tick <i>Preview</i> and drag."));
+		    "level", Scalarm(shown), 0, Scalarm(std::max(finest, 1)),
+		    QString("Level (0 coarsest, %1 finest)").arg(finest),
+		    "0 is the base mesh, the coarsest; the largest value is the finest level, which is the "
+		    "layer as it was. In scripts -1 is the finest, too. Tick <i>Preview</i> and drag."));
 		break;
 	}
-	case FP_LAYERS: addLevelListParameters(list); break;
-	default: break;
+	case FP_LAYERS:
+		addLevelListParameters(list);
+		break;
+	default:
+		break;
 	}
 	return list;
 }
 
 std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
-	const QAction*           action,
-	const RichParameterList& parameters,
-	MeshDocument&            document,
-	unsigned int&            postConditionMask,
-	vcg::CallBackPos*        cb)
+    const QAction* action,
+    const RichParameterList& parameters,
+    MeshDocument& document,
+    unsigned int& postConditionMask,
+    vcg::CallBackPos* cb)
 {
 	return guarded([&]() -> Results {
 		if (document.mm() == nullptr)
@@ -186,23 +185,27 @@ std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
 		// Whatever the layer had before and after may have changed with its mesh.
 		postConditionMask = MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE;
 		switch (ID(action)) {
-		case FP_SIMPLIFY: return simplify(layer, parameters, cb);
-		case FP_BROWSE: return browse(layer, parameters, postConditionMask);
+		case FP_SIMPLIFY:
+			return simplify(layer, parameters, cb);
+		case FP_BROWSE:
+			return browse(layer, parameters, postConditionMask);
 		case FP_LAYERS:
 			postConditionMask = MeshModel::MM_NONE;
 			return makeLayers(document, parameters);
-		default: wrongActionCalled(action); return {};
+		default:
+			wrongActionCalled(action);
+			return {};
 		}
 	});
 }
 
 FilterWavemeshPlugin::Results FilterWavemeshPlugin::simplify(
-	MeshModel& layer, const RichParameterList& parameters, vcg::CallBackPos* cb)
+    MeshModel& layer, const RichParameterList& parameters, vcg::CallBackPos* cb)
 {
-	const SimplifyTarget target  = simplifyTarget(parameters, layer);
-	EncodeOptions        options = encodeOptions(parameters, browsingOptions());
-	options.progress             = progressBar(cb, "Coarsening...");
-	const auto encoded           = encode(toMeshData(layer.cm), options);
+	const SimplifyTarget target = simplifyTarget(parameters, layer);
+	EncodeOptions options       = encodeOptions(parameters, browsingOptions());
+	options.progress            = progressBar(cb, "Coarsening...");
+	const auto encoded          = encode(toMeshData(layer.cm), options);
 	require(encoded.status(), "Cannot simplify " + layer.label());
 
 	const StreamInfo& info   = encoded->info;
@@ -214,11 +217,11 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::simplify(
 		upTo.level         = chosen.level;
 		const auto decoded = decode(encoded->bytes.data(), encoded->bytes.size(), upTo);
 		require(decoded.status(), "Cannot simplify " + layer.label());
-		auto              coarse = makeMesh(decoded->mesh);
-		const QStringList lost   = attributesNotKept(layer);
+		auto coarse            = makeMesh(decoded->mesh);
+		const QStringList lost = attributesNotKept(layer);
 		if (!lost.isEmpty())
 			log(GLLogStream::WARNING,
-				("The simplified mesh does not have: " + lost.join(", ") + ".").toStdString());
+			    ("The simplified mesh does not have: " + lost.join(", ") + ".").toStdString());
 		exchangeMesh(layer, std::move(coarse));
 		layer.setLabel(plainLabel(layer.label()));
 	}
@@ -230,21 +233,21 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::simplify(
 }
 
 FilterWavemeshPlugin::Results FilterWavemeshPlugin::browse(
-	MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask)
+    MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask)
 {
 	// No progress bar: it would let the slider's next event in while this one is being served.
 	const auto levels = levelsOf(layer);
-	const int  asked  = integerOf(parameters, "level", kFinestLevel);
-	const int  level  = asked < 0 ? levels->finest() : std::min(asked, levels->finest());
+	const int asked   = integerOf(parameters, "level", kFinestLevel);
+	const int level   = asked < 0 ? levels->finest() : std::min(asked, levels->finest());
 	if (level == levels->shown())
 		postConditionMask = MeshModel::MM_NONE; // nothing to draw anew
 	levels->show(layer, level);
-	const StreamInfo& info  = levels->info();
-	const bool        exact = wholeLevels(info, levels->stream()->size()) > info.finestLevel();
+	const StreamInfo& info = levels->info();
+	const bool exact       = wholeLevels(info, levels->stream()->size()) > info.finestLevel();
 	layer.setLabel(
-		level == info.finestLevel() && exact ?
-			plainLabel(layer.label()) :
-			levelLabel(layer.label(), level, info.finestLevel()));
+	    level == info.finestLevel() && exact
+	        ? plainLabel(layer.label())
+	        : levelLabel(layer.label(), level, info.finestLevel()));
 	const Shown shown {layer, info, level, levels->stream()->size()};
 	log(shown.sentence());
 	return shown.results();
@@ -253,23 +256,22 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::browse(
 FilterWavemeshPlugin::Results
 FilterWavemeshPlugin::makeLayers(MeshDocument& document, const RichParameterList& parameters)
 {
-	MeshModel&             layer  = *document.mm();
-	const auto             levels = levelsOf(layer);
+	MeshModel& layer              = *document.mm();
+	const auto levels             = levelsOf(layer);
 	const std::vector<int> chosen = levelList(parameters, levels->finest());
-	const int              finest = levels->info().finestLevel();
-	const QString          name   = QFileInfo(plainLabel(layer.label())).completeBaseName();
+	const int finest              = levels->info().finestLevel();
+	const QString name            = QFileInfo(plainLabel(layer.label())).completeBaseName();
 
 	for (int level : chosen) {
-		MeshModel* made =
-			document.addNewMesh(QString(), levelLabel(name, level, finest), false);
+		MeshModel* made = document.addNewMesh(QString(), levelLabel(name, level, finest), false);
 		levels->copyTo(*made, layer, level);
 		log(Shown {*made, levels->info(), level, levels->stream()->size()}.sentence());
 	}
 	return {
-		{"layers", int(chosen.size())},
-		{"from", chosen.front()},
-		{"to", chosen.back()},
-		{"finest_level", finest}};
+	    {"layers", int(chosen.size())},
+	    {"from", chosen.front()},
+	    {"to", chosen.back()},
+	    {"finest_level", finest}};
 }
 
 std::shared_ptr<LayerLevels> FilterWavemeshPlugin::levelsOf(MeshModel& layer)
@@ -278,9 +280,9 @@ std::shared_ptr<LayerLevels> FilterWavemeshPlugin::levelsOf(MeshModel& layer)
 		return levels;
 	if (findStream(layer.cm) != nullptr)
 		log(GLLogStream::WARNING,
-			"The layer was edited: its levels are made anew, and what it shows is the finest.");
+		    "The layer was edited: its levels are made anew, and what it shows is the finest.");
 	const SharedBytes stream = encodeForBrowsing(layer);
-	const auto        info   = readInfo(stream->data(), stream->size());
+	const auto info          = readInfo(stream->data(), stream->size());
 	require(info.status(), "Cannot browse " + layer.label());
 	encoded_ = {};
 	return LayerLevels::attach(layer, stream, info->finestLevel());
@@ -293,7 +295,7 @@ SharedBytes FilterWavemeshPlugin::encodeForBrowsing(const MeshModel& layer)
 		auto encoded = encode(toMeshData(layer.cm), browsingOptions());
 		require(encoded.status(), "Cannot make levels of " + layer.label());
 		encoded_ = {
-			now, std::make_shared<const std::vector<std::uint8_t>>(std::move(encoded->bytes))};
+		    now, std::make_shared<const std::vector<std::uint8_t>>(std::move(encoded->bytes))};
 	}
 	return encoded_.stream;
 }
@@ -302,10 +304,10 @@ std::pair<int, int> FilterWavemeshPlugin::levelRange(const MeshModel& layer)
 {
 	const WaitCursor waiting;
 	try {
-		const LayerStream* kept   = findStream(layer.cm);
-		const bool         valid  = kept != nullptr && kept->fingerprint == fingerprint(layer.cm);
-		const SharedBytes  stream = valid ? kept->bytes : encodeForBrowsing(layer);
-		const auto         info   = readInfo(stream->data(), stream->size());
+		const LayerStream* kept  = findStream(layer.cm);
+		const bool valid         = kept != nullptr && kept->fingerprint == fingerprint(layer.cm);
+		const SharedBytes stream = valid ? kept->bytes : encodeForBrowsing(layer);
+		const auto info          = readInfo(stream->data(), stream->size());
 		if (info.ok()) {
 			const int whole = wholeLevels(*info, stream->size()) - 1;
 			const int shown = valid ? kept->level : whole;

@@ -20,32 +20,30 @@ public:
 	QString pluginName() const override;
 	QString vendor() const override;
 
-	QString     filterName(ActionIDType filter) const override;
-	QString     pythonFilterName(ActionIDType filter) const override;
-	QString     filterInfo(ActionIDType filter) const override;
+	QString filterName(ActionIDType filter) const override;
+	QString pythonFilterName(ActionIDType filter) const override;
+	QString filterInfo(ActionIDType filter) const override;
 	FilterClass getClass(const QAction* action) const override;
 	FilterArity filterArity(const QAction* action) const override;
-	int         getPreConditions(const QAction* action) const override;
-	int         postCondition(const QAction* action) const override;
+	int getPreConditions(const QAction* action) const override;
+	int postCondition(const QAction* action) const override;
 
 	RichParameterList
 	initParameterList(const QAction* action, const MeshDocument& document) override;
 
 	std::map<std::string, QVariant> applyFilter(
-		const QAction*           action,
-		const RichParameterList& parameters,
-		MeshDocument&            document,
-		unsigned int&            postConditionMask,
-		vcg::CallBackPos*        cb) override;
+	    const QAction* action,
+	    const RichParameterList& parameters,
+	    MeshDocument& document,
+	    unsigned int& postConditionMask,
+	    vcg::CallBackPos* cb) override;
 
 private:
 	using Results = std::map<std::string, QVariant>;
 
 	Results simplify(MeshModel& layer, const RichParameterList& parameters, vcg::CallBackPos* cb);
-	Results browse(
-		MeshModel&               layer,
-		const RichParameterList& parameters,
-		unsigned int&            postConditionMask);
+	Results
+	browse(MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask);
 	Results makeLayers(MeshDocument& document, const RichParameterList& parameters);
 
 	/// The levels of the layer: those it has, or those of a new encoding of its mesh.
@@ -59,7 +57,7 @@ private:
 	/// before the filter runs, when the layer may not be touched yet.
 	struct Encoded
 	{
-		std::uint64_t         fingerprint = 0;
+		std::uint64_t fingerprint = 0;
 		wavemesh::SharedBytes stream;
 	};
 	Encoded encoded_;

@@ -20,7 +20,7 @@ std::shared_ptr<LayerLevels>& levelsOn(CMeshO& m)
 } // namespace
 
 LayerLevels::LayerLevels(SharedBytes stream, Decoder decoder) :
-		stream_(std::move(stream)), decoder_(std::move(decoder))
+        stream_(std::move(stream)), decoder_(std::move(decoder))
 {
 	finest_ = info().finestLevel();
 	if (stream_->size() >= info().bytes)
@@ -54,7 +54,7 @@ std::shared_ptr<LayerLevels> LayerLevels::attach(MeshModel& layer, SharedBytes s
 	auto decoder = Decoder::open(stream->data(), stream->size());
 	require(decoder.status(), "Cannot browse the levels");
 	const std::shared_ptr<LayerLevels> levels(
-		new LayerLevels(std::move(stream), std::move(*decoder)));
+	    new LayerLevels(std::move(stream), std::move(*decoder)));
 	levels->shown_ = std::clamp(shown, 0, levels->finest_);
 	levels->keepOn(layer, levels);
 	return levels;
@@ -86,13 +86,13 @@ void LayerLevels::show(MeshModel& layer, int level)
 	if (level == shown_)
 		return;
 	const std::shared_ptr<LayerLevels> self = levelsOn(layer.cm);
-	const bool                         back = level == finest_ && away_.mesh;
+	const bool back                         = level == finest_ && away_.mesh;
 	// What can fail comes before the layer is touched.
 	std::unique_ptr<CMeshO> mesh = back ? std::move(away_.mesh) : makeMesh(decoded(level));
 
 	detach(layer); // the levels must not go away with a mesh that they keep
 	const int mask = layer.dataMask();
-	auto      old  = exchangeMesh(layer, std::move(mesh), back ? away_.dataMask : 0);
+	auto old       = exchangeMesh(layer, std::move(mesh), back ? away_.dataMask : 0);
 	if (shown_ == finest_)
 		away_ = {std::move(old), mask};
 	shown_ = level;
@@ -106,7 +106,7 @@ void LayerLevels::copyTo(MeshModel& other, const MeshModel& layer, int level)
 		exchangeMesh(other, makeMesh(decoded(level)));
 	else {
 		const CMeshO& mesh = away_.mesh ? *away_.mesh : layer.cm;
-		const int     mask = away_.mesh ? away_.dataMask : layer.dataMask();
+		const int mask     = away_.mesh ? away_.dataMask : layer.dataMask();
 		exchangeMesh(other, std::make_unique<CMeshO>(mesh), mask);
 		for (const std::string& name : mesh.textures)
 			other.addTexture(name, layer.getTexture(name));

@@ -52,21 +52,21 @@ public:
 private:
 	LayerLevels(SharedBytes stream, Decoder decoder);
 	const MeshData& decoded(int level);
-	void            keepOn(MeshModel& layer, std::shared_ptr<LayerLevels> self) const;
+	void keepOn(MeshModel& layer, std::shared_ptr<LayerLevels> self) const;
 
 	/// The finest mesh while it is away from the layer.
 	struct Finest
 	{
 		std::unique_ptr<CMeshO> mesh;
-		int                     dataMask = 0;
+		int dataMask = 0;
 	};
 
-	SharedBytes           stream_; ///< what decoder_ reads
-	Decoder               decoder_;
+	SharedBytes stream_; ///< what decoder_ reads
+	Decoder decoder_;
 	std::vector<MeshData> passed_; ///< by level, as far as decoder_ went
-	Finest                away_;
-	int                   finest_ = 0;
-	int                   shown_  = 0;
+	Finest away_;
+	int finest_ = 0;
+	int shown_  = 0;
 };
 
 } // namespace wavemesh

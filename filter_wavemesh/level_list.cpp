@@ -14,14 +14,14 @@ void addLevelListParameters(RichParameterList& list)
 {
 	list.addParam(RichInt("from", 0, "From level", "0 is the base mesh, the coarsest."));
 	list.addParam(RichInt(
-		"to", kFinestLevel, "To level",
-		"-1, or a number larger than there are levels, is the finest level."));
+	    "to", kFinestLevel, "To level",
+	    "-1, or a number larger than there are levels, is the finest level."));
 	list.addParam(
-		RichInt("step", 1, "Step", "Every how many levels: 1 for each, 2 for every other."));
+	    RichInt("step", 1, "Step", "Every how many levels: 1 for each, 2 for every other."));
 	list.addParam(RichString(
-		"levels", "", "Or these levels",
-		"A list of levels, such as <i>0, 2, 5, -1</i>, used in place of the range above. -1 is the "
-		"finest level."));
+	    "levels", "", "Or these levels",
+	    "A list of levels, such as <i>0, 2, 5, -1</i>, used in place of the range above. -1 is the "
+	    "finest level."));
 }
 
 std::vector<int> levelList(const RichParameterList& list, int finest)
@@ -33,8 +33,8 @@ std::vector<int> levelList(const RichParameterList& list, int finest)
 	const QString text = textOf(list, "levels", "").simplified();
 	if (!text.isEmpty()) {
 		for (const QString& word : text.split(text.contains(',') ? ',' : ' ')) {
-			bool      isNumber = false;
-			const int level    = word.trimmed().toInt(&isNumber);
+			bool isNumber   = false;
+			const int level = word.trimmed().toInt(&isNumber);
 			if (!isNumber)
 				throw MLException("Wavemesh: '" + word + "' in the list of levels is no level.");
 			chosen.insert(clamped(level));

@@ -17,7 +17,7 @@ struct SimplifyTarget
 	/// In the order of the dialog's list.
 	enum Kind { LevelsRemoved, Level, Vertices, Percentage, Bytes, Error };
 
-	Kind   kind  = LevelsRemoved;
+	Kind kind    = LevelsRemoved;
 	double value = 1; ///< levels, vertices, percent, bytes or model units
 };
 
@@ -30,8 +30,8 @@ SimplifyTarget simplifyTarget(const RichParameterList& list, const MeshModel& la
 
 struct ChosenLevel
 {
-	int  level = 0;
-	bool met   = true; ///< false: no level reaches the target, this is the one closest to it
+	int level = 0;
+	bool met  = true; ///< false: no level reaches the target, this is the one closest to it
 };
 
 /// Vertices, percentage and bytes are ceilings: the finest level below them. The error is one too:

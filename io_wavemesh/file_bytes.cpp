@@ -30,10 +30,10 @@ std::vector<std::uint8_t> readFile(const QString& name, std::uint64_t maxBytes)
 		throw MLException("Cannot read " + name + ": it is larger than any .wmc file can be.");
 
 	std::vector<std::uint8_t> bytes(static_cast<std::size_t>(wanted));
-	std::size_t               have = 0;
+	std::size_t have = 0;
 	while (have < bytes.size()) {
 		const qint64 got = file.read(
-			reinterpret_cast<char*>(bytes.data()) + have, static_cast<qint64>(bytes.size() - have));
+		    reinterpret_cast<char*>(bytes.data()) + have, static_cast<qint64>(bytes.size() - have));
 		if (got < 0)
 			throw MLException("Cannot read " + name + ": " + file.errorString() + ".");
 		if (got == 0)
@@ -46,10 +46,10 @@ std::vector<std::uint8_t> readFile(const QString& name, std::uint64_t maxBytes)
 
 void writeFile(const QString& name, const std::vector<std::uint8_t>& bytes)
 {
-	QSaveFile  file(name);
+	QSaveFile file(name);
 	const auto size = static_cast<qint64>(bytes.size());
 	if (!file.open(QIODevice::WriteOnly) ||
-		file.write(reinterpret_cast<const char*>(bytes.data()), size) != size || !file.commit())
+	    file.write(reinterpret_cast<const char*>(bytes.data()), size) != size || !file.commit())
 		throw MLException("Cannot write " + name + ": " + file.errorString() + ".");
 }
 

@@ -21,13 +21,13 @@ constexpr char kExtension[] = "WMC";
 /// What the open dialog asks.
 struct OpenRequest
 {
-	int           level     = kFinestLevel;
-	std::uint64_t maxBytes  = std::numeric_limits<std::uint64_t>::max();
-	bool          allLevels = false;
+	int level              = kFinestLevel;
+	std::uint64_t maxBytes = std::numeric_limits<std::uint64_t>::max();
+	bool allLevels         = false;
 
 	explicit OpenRequest(const RichParameterList& parameters) :
-			level(integerOf(parameters, "level", kFinestLevel)),
-			allLevels(flagOf(parameters, "all_levels", false))
+	        level(integerOf(parameters, "level", kFinestLevel)),
+	        allLevels(flagOf(parameters, "all_levels", false))
 	{
 		const int limit = integerOf(parameters, "max_bytes", 0);
 		if (limit > 0)
@@ -43,8 +43,8 @@ SharedBytes readWmc(const QString& fileName, const OpenRequest& request)
 	constexpr std::uint64_t kEnoughForAHead = 1 << 16;
 
 	std::uint64_t limit = request.maxBytes;
-	const auto    head  = readFile(fileName, std::min(limit, kEnoughForAHead));
-	const auto    info  = readInfo(head.data(), head.size());
+	const auto head     = readFile(fileName, std::min(limit, kEnoughForAHead));
+	const auto info     = readInfo(head.data(), head.size());
 	if (info.ok())
 		limit = std::min(limit, info->bytes + 1);
 	else if (info.status().code != StatusCode::Truncated || head.size() < kEnoughForAHead)
@@ -93,30 +93,28 @@ RichParameterList IOWavemeshPlugin::initPreOpenParameter(const QString& format) 
 	if (format.toUpper() != kExtension)
 		return list;
 	list.addParam(RichInt(
-		"level", kFinestLevel, "Level",
-		"Level of detail to open: 0 is the base mesh, the coarsest; -1, or a number larger than "
-		"the file has levels, is the finest, the whole mesh. The other levels stay at hand: see "
-		"the filter <i>Wavemesh: Browse Levels</i>."));
+	    "level", kFinestLevel, "Level",
+	    "Level of detail to open: 0 is the base mesh, the coarsest; -1, or a number larger than "
+	    "the file has levels, is the finest, the whole mesh. The other levels stay at hand: see "
+	    "the filter <i>Wavemesh: Browse Levels</i>."));
 	list.addParam(RichInt(
-		"max_bytes", 0, "Max. bytes (0 = whole file)",
-		"Read no more than so many bytes of the file, and show the finest level that they hold."));
+	    "max_bytes", 0, "Max. bytes (0 = whole file)",
+	    "Read no more than so many bytes of the file, and show the finest level that they hold."));
 	list.addParam(RichBool(
-		"all_levels", false, "All levels as layers",
-		"Open every level, from the base mesh up to the level above, as a layer of its own."));
+	    "all_levels", false, "All levels as layers",
+	    "Open every level, from the base mesh up to the level above, as a layer of its own."));
 	return list;
 }
 
 unsigned int IOWavemeshPlugin::numberMeshesContainedInFile(
-	const QString&           format,
-	const QString&           fileName,
-	const RichParameterList& parameters) const
+    const QString& format, const QString& fileName, const RichParameterList& parameters) const
 {
 	return guarded([&]() -> unsigned int {
 		const OpenRequest request(parameters);
 		if (format.toUpper() != kExtension || !request.allLevels)
 			return 1;
 		const SharedBytes bytes = readWmc(fileName, request);
-		const auto        info  = readInfo(bytes->data(), bytes->size());
+		const auto info         = readInfo(bytes->data(), bytes->size());
 		require(info.status(), "Cannot open " + QFileInfo(fileName).fileName());
 		int count = wholeLevels(*info, bytes->size());
 		if (request.level >= 0)
@@ -126,12 +124,12 @@ unsigned int IOWavemeshPlugin::numberMeshesContainedInFile(
 }
 
 void IOWavemeshPlugin::open(
-	const QString&               format,
-	const QString&               fileName,
-	const std::list<MeshModel*>& layers,
-	std::list<int>&              masks,
-	const RichParameterList&     parameters,
-	vcg::CallBackPos*            cb)
+    const QString& format,
+    const QString& fileName,
+    const std::list<MeshModel*>& layers,
+    std::list<int>& masks,
+    const RichParameterList& parameters,
+    vcg::CallBackPos* cb)
 {
 	guarded([&] {
 		const OpenRequest request(parameters);
@@ -142,77 +140,75 @@ void IOWavemeshPlugin::open(
 		if (format.toUpper() != kExtension)
 			wrongOpenFormat(format);
 		const auto bytes    = readWmc(fileName, request);
-		auto       decoder  = Decoder::open(bytes->data(), bytes->size());
+		auto decoder        = Decoder::open(bytes->data(), bytes->size());
 		const auto progress = progressBar(cb, "Decoding levels...");
 		require(decoder.status(), "Cannot open " + fileName);
 		const int finest = decoder->info().finestLevel();
 		for (MeshModel* layer : layers) {
 			require(decoder->advance(), "Cannot open " + fileName);
 			fillLayer(*layer, decoder->mesh(), decoder->level(), bytes);
-			layer->setLabel(
-				levelLabel(QFileInfo(fileName).fileName(), decoder->level(), finest));
+			layer->setLabel(levelLabel(QFileInfo(fileName).fileName(), decoder->level(), finest));
 			masks.push_back(0);
 			if (progress)
 				progress(double(masks.size()) / double(layers.size()));
 		}
 		log(QString("Opened levels 0 to %1 of %2 from %3.")
-				.arg(decoder->level())
-				.arg(finest)
-				.arg(byteCount(bytes->size()))
-				.toStdString());
+		        .arg(decoder->level())
+		        .arg(finest)
+		        .arg(byteCount(bytes->size()))
+		        .toStdString());
 		if (bytes->size() < decoder->info().bytes && request.maxBytes >= bytes->size())
 			reportWarning(QString("%1 is truncated: %2 of its %3 levels are whole.")
-							  .arg(fileName)
-							  .arg(wholeLevels(decoder->info(), bytes->size()))
-							  .arg(finest + 1));
+			                  .arg(fileName)
+			                  .arg(wholeLevels(decoder->info(), bytes->size()))
+			                  .arg(finest + 1));
 	});
 }
 
 void IOWavemeshPlugin::open(
-	const QString&           format,
-	const QString&           fileName,
-	MeshModel&               layer,
-	int&                     mask,
-	const RichParameterList& parameters,
-	vcg::CallBackPos*        cb)
+    const QString& format,
+    const QString& fileName,
+    MeshModel& layer,
+    int& mask,
+    const RichParameterList& parameters,
+    vcg::CallBackPos* cb)
 {
 	guarded([&] {
 		if (format.toUpper() != kExtension)
 			wrongOpenFormat(format);
 		const OpenRequest request(parameters);
-		const Stopwatch   watch;
+		const Stopwatch watch;
 		const SharedBytes bytes = readWmc(fileName, request);
 
 		DecodeOptions options;
-		options.level    = request.level;
-		options.progress = progressBar(cb, "Decoding...");
+		options.level      = request.level;
+		options.progress   = progressBar(cb, "Decoding...");
 		const auto decoded = decode(bytes->data(), bytes->size(), options);
 		if (!decoded.hasValue())
 			require(decoded.status(), "Cannot open " + fileName);
 
-		const StreamInfo& info  = decoded->info;
-		const bool        whole = decoded->level < wholeLevels(info, bytes->size());
+		const StreamInfo& info = decoded->info;
+		const bool whole       = decoded->level < wholeLevels(info, bytes->size());
 		fillLayer(layer, decoded->mesh, decoded->level, bytes);
 		layer.setLabel(
-			decoded->level == info.finestLevel() && whole ?
-				plainLabel(layer.label()) :
-				levelLabel(layer.label(), decoded->level, info.finestLevel()));
+		    decoded->level == info.finestLevel() && whole
+		        ? plainLabel(layer.label())
+		        : levelLabel(layer.label(), decoded->level, info.finestLevel()));
 		mask = 0;
 		if (decoded.status().code == StatusCode::Truncated && bytes->size() < request.maxBytes)
-			reportWarning(
-				QString("%1 is truncated: it has %2 of %3. Level %4 of %5 is shown%6.")
-					.arg(fileName, QString::number(bytes->size()), byteCount(info.bytes))
-					.arg(decoded->level)
-					.arg(info.finestLevel())
-					.arg(whole ? "" : ", in part predicted"));
+			reportWarning(QString("%1 is truncated: it has %2 of %3. Level %4 of %5 is shown%6.")
+			                  .arg(fileName, QString::number(bytes->size()), byteCount(info.bytes))
+			                  .arg(decoded->level)
+			                  .arg(info.finestLevel())
+			                  .arg(whole ? "" : ", in part predicted"));
 		log(QString("Opened level %1 of %2: %3 vertices, %4 faces, from %5 in %6 s.")
-				.arg(decoded->level)
-				.arg(info.finestLevel())
-				.arg(layer.cm.vn)
-				.arg(layer.cm.fn)
-				.arg(byteCount(bytes->size()))
-				.arg(watch.seconds(), 0, 'f', 2)
-				.toStdString());
+		        .arg(decoded->level)
+		        .arg(info.finestLevel())
+		        .arg(layer.cm.vn)
+		        .arg(layer.cm.fn)
+		        .arg(byteCount(bytes->size()))
+		        .arg(watch.seconds(), 0, 'f', 2)
+		        .toStdString());
 	});
 }
 
@@ -242,12 +238,12 @@ IOWavemeshPlugin::initSaveParameter(const QString& format, const MeshModel& laye
 }
 
 void IOWavemeshPlugin::save(
-	const QString&           format,
-	const QString&           fileName,
-	MeshModel&               layer,
-	const int /*mask*/,
-	const RichParameterList& parameters,
-	vcg::CallBackPos*        cb)
+    const QString& format,
+    const QString& fileName,
+    MeshModel& layer,
+    const int /*mask*/,
+    const RichParameterList& parameters,
+    vcg::CallBackPos* cb)
 {
 	guarded([&] {
 		if (format.toUpper() != kExtension)
@@ -256,7 +252,7 @@ void IOWavemeshPlugin::save(
 		options.progress      = progressBar(cb, "Encoding...");
 
 		const Stopwatch watch;
-		const auto      encoded = encode(toMeshData(layer.cm), options);
+		const auto encoded = encode(toMeshData(layer.cm), options);
 		require(encoded.status(), "Cannot save " + fileName);
 		writeFile(fileName, encoded->bytes);
 
@@ -264,16 +260,16 @@ void IOWavemeshPlugin::save(
 		const QStringList lost = attributesNotKept(layer);
 		if (!lost.isEmpty())
 			log(GLLogStream::WARNING,
-				("A .wmc file does not keep yet: " + lost.join(", ") + ".").toStdString());
+			    ("A .wmc file does not keep yet: " + lost.join(", ") + ".").toStdString());
 		const double bytes     = double(encoded->bytes.size());
 		const double binaryPly = 12.0 * layer.cm.vn + 13.0 * layer.cm.fn;
 		log(QString("Saved %1: %2 in %3 levels, %4 bits per vertex, 1/%5 of a binary PLY, %6 s.")
-				.arg(QFileInfo(fileName).fileName(), byteCount(encoded->bytes.size()))
-				.arg(encoded->info.levels.size())
-				.arg(8 * bytes / layer.cm.vn, 0, 'f', 2)
-				.arg(binaryPly / bytes, 0, 'f', 1)
-				.arg(watch.seconds(), 0, 'f', 2)
-				.toStdString());
+		        .arg(QFileInfo(fileName).fileName(), byteCount(encoded->bytes.size()))
+		        .arg(encoded->info.levels.size())
+		        .arg(8 * bytes / layer.cm.vn, 0, 'f', 2)
+		        .arg(binaryPly / bytes, 0, 'f', 1)
+		        .arg(watch.seconds(), 0, 'f', 2)
+		        .toStdString());
 	});
 }
 

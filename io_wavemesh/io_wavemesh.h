@@ -23,36 +23,36 @@ public:
 	/// holds whole.
 	/// @throws MLException if the file is none that can be opened
 	unsigned int numberMeshesContainedInFile(
-		const QString&           format,
-		const QString&           fileName,
-		const RichParameterList& parameters) const override;
+	    const QString& format,
+	    const QString& fileName,
+	    const RichParameterList& parameters) const override;
 
 	/// Opens one level on every layer of `layers`: the first gets the base mesh. With one layer,
 	/// the level that the parameters ask for.
 	void open(
-		const QString&               format,
-		const QString&               fileName,
-		const std::list<MeshModel*>& layers,
-		std::list<int>&              masks,
-		const RichParameterList&     parameters,
-		vcg::CallBackPos*            cb = nullptr) override;
+	    const QString& format,
+	    const QString& fileName,
+	    const std::list<MeshModel*>& layers,
+	    std::list<int>& masks,
+	    const RichParameterList& parameters,
+	    vcg::CallBackPos* cb = nullptr) override;
 	void open(
-		const QString&           format,
-		const QString&           fileName,
-		MeshModel&               layer,
-		int&                     mask,
-		const RichParameterList& parameters,
-		vcg::CallBackPos*        cb = nullptr) override;
+	    const QString& format,
+	    const QString& fileName,
+	    MeshModel& layer,
+	    int& mask,
+	    const RichParameterList& parameters,
+	    vcg::CallBackPos* cb = nullptr) override;
 
-	void exportMaskCapability(const QString& format, int& capability, int& defaultBits)
-		const override;
-	RichParameterList initSaveParameter(const QString& format, const MeshModel& layer)
-		const override;
+	void
+	exportMaskCapability(const QString& format, int& capability, int& defaultBits) const override;
+	RichParameterList
+	initSaveParameter(const QString& format, const MeshModel& layer) const override;
 	void save(
-		const QString&           format,
-		const QString&           fileName,
-		MeshModel&               layer,
-		const int                mask,
-		const RichParameterList& parameters,
-		vcg::CallBackPos*        cb = nullptr) override;
+	    const QString& format,
+	    const QString& fileName,
+	    MeshModel& layer,
+	    const int mask,
+	    const RichParameterList& parameters,
+	    vcg::CallBackPos* cb = nullptr) override;
 };

@@ -5,41 +5,41 @@
 
 namespace wavemesh {
 
-void addEncodeParameters(
-	RichParameterList& list, const EncodeOptions& defaults, bool hidePrecision)
+void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults, bool hidePrecision)
 {
 	list.addParam(RichInt(
-		"bits", defaults.bits, "Precision (bits per coordinate)",
-		"Vertices are moved to a lattice of 2^bits points over the largest extent of the bounding "
-		"box, 1 to 24 bits. 12 bits keep about 1/8000 of the extent, 16 bits about 1/130000.",
-		hidePrecision));
+	    "bits", defaults.bits, "Precision (bits per coordinate)",
+	    "Vertices are moved to a lattice of 2^bits points over the largest extent of the bounding "
+	    "box, 1 to 24 bits. 12 bits keep about 1/8000 of the extent, 16 bits about 1/130000.",
+	    hidePrecision));
 	list.addParam(RichFloat(
-		"step", Scalarm(defaults.step), "Lattice step (model units, 0 = use bits)",
-		"Distance of two lattice points in model units, in place of the number of bits: no "
-		"coordinate moves by more than half of it. 0: the step follows from the bits.",
-		hidePrecision));
+	    "step", Scalarm(defaults.step), "Lattice step (model units, 0 = use bits)",
+	    "Distance of two lattice points in model units, in place of the number of bits: no "
+	    "coordinate moves by more than half of it. 0: the step follows from the bits.",
+	    hidePrecision));
 	list.addParam(RichEnum(
-		"wgc", int(defaults.wgc), {"off", "on", "auto"}, "Geometrical criterion (WGC)",
-		"Wavelet geometrical criterion: keep the vertices of sharp edges and corners in the coarse "
-		"levels. <b>off</b>: connectivity alone decides. <b>on</b>: better coarse levels of "
-		"mechanical parts. <b>auto</b>: encode both ways and keep the smaller."));
+	    "wgc", int(defaults.wgc), {"off", "on", "auto"}, "Geometrical criterion (WGC)",
+	    "Wavelet geometrical criterion: keep the vertices of sharp edges and corners in the coarse "
+	    "levels. <b>off</b>: connectivity alone decides. <b>on</b>: better coarse levels of "
+	    "mechanical parts. <b>auto</b>: encode both ways and keep the smaller."));
 	list.addParam(RichEnum(
-		"lifting", defaults.lifting - kLiftingOff, {"off", "0-disc", "1-disc", "2-disc"},
-		"Lifting",
-		"Coarse vertices are moved to make the coarse levels smoother and closer to the original, "
-		"using the details around them. <b>off</b>: coarse vertices are vertices of the original. "
-		"<b>k-disc</b>: how far around a vertex the details are gathered."));
+	    "lifting", defaults.lifting - kLiftingOff, {"off", "0-disc", "1-disc", "2-disc"}, "Lifting",
+	    "Coarse vertices are moved to make the coarse levels smoother and closer to the original, "
+	    "using the details around them. <b>off</b>: coarse vertices are vertices of the original. "
+	    "<b>k-disc</b>: how far around a vertex the details are gathered."));
 	list.addParam(RichEnum(
-		"mode", int(defaults.mode), {"classic"}, "Mode",
-		"<b>classic</b>: every level is one subdivision step at full precision.", true));
+	    "mode", int(defaults.mode), {"classic"}, "Mode",
+	    "<b>classic</b>: every level is one subdivision step at full precision.", true));
 	list.addParam(RichFloat(
-		"wgc_sharpness", Scalarm(defaults.wgcSharpness), "WGC: sharpness",
-		"A vertex is sharp if it lies on the border or if two of its faces meet at an angle whose "
-		"sine is above this, 0 to 1.", true));
+	    "wgc_sharpness", Scalarm(defaults.wgcSharpness), "WGC: sharpness",
+	    "A vertex is sharp if it lies on the border or if two of its faces meet at an angle whose "
+	    "sine is above this, 0 to 1.",
+	    true));
 	list.addParam(RichFloat(
-		"wgc_deviation", Scalarm(defaults.wgcDeviation), "WGC: deviation",
-		"A sharp vertex may vanish from the next coarser level only if it lies closer than this to "
-		"the edge that replaces it, relative to the length of that edge.", true));
+	    "wgc_deviation", Scalarm(defaults.wgcDeviation), "WGC: deviation",
+	    "A sharp vertex may vanish from the next coarser level only if it lies closer than this to "
+	    "the edge that replaces it, relative to the length of that edge.",
+	    true));
 }
 
 static int choiceOf(const RichParameterList& list, const QString& name, int missing, int last)
@@ -58,7 +58,7 @@ EncodeOptions encodeOptions(const RichParameterList& list, const EncodeOptions& 
 	options.mode          = Mode(choiceOf(list, "mode", int(defaults.mode), int(Mode::Classic)));
 	options.wgc           = Wgc(choiceOf(list, "wgc", int(defaults.wgc), int(Wgc::Auto)));
 	options.lifting =
-		kLiftingOff + choiceOf(list, "lifting", defaults.lifting - kLiftingOff, 2 - kLiftingOff);
+	    kLiftingOff + choiceOf(list, "lifting", defaults.lifting - kLiftingOff, 2 - kLiftingOff);
 	options.wgcSharpness = numberOf(list, "wgc_sharpness", defaults.wgcSharpness);
 	options.wgcDeviation = numberOf(list, "wgc_deviation", defaults.wgcDeviation);
 	return options;

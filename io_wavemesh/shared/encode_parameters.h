@@ -12,9 +12,7 @@ namespace wavemesh {
 /// Appends the parameters to `list`, with the values of `defaults`.
 /// @param hidePrecision  bits and step go to the dialog's advanced part
 void addEncodeParameters(
-	RichParameterList&   list,
-	const EncodeOptions& defaults,
-	bool                 hidePrecision = false);
+    RichParameterList& list, const EncodeOptions& defaults, bool hidePrecision = false);
 
 /// Reads them back; what a script leaves out keeps the value of `defaults`.
 /// @throws MLException naming the parameter that is out of range

@@ -15,11 +15,11 @@ constexpr char kStreamAttribute[] = "wavemesh.stream";
 
 /// Data that a layer need not have, and that a level does not bring.
 constexpr int kOptionalData =
-	MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTMARK |
-	MeshModel::MM_VERTFACETOPO | MeshModel::MM_VERTCURVDIR | MeshModel::MM_VERTRADIUS |
-	MeshModel::MM_VERTTEXCOORD | MeshModel::MM_FACECOLOR | MeshModel::MM_FACEQUALITY |
-	MeshModel::MM_FACEMARK | MeshModel::MM_FACEFACETOPO | MeshModel::MM_FACECURVDIR |
-	MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_POLYGONAL;
+    MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTMARK |
+    MeshModel::MM_VERTFACETOPO | MeshModel::MM_VERTCURVDIR | MeshModel::MM_VERTRADIUS |
+    MeshModel::MM_VERTTEXCOORD | MeshModel::MM_FACECOLOR | MeshModel::MM_FACEQUALITY |
+    MeshModel::MM_FACEMARK | MeshModel::MM_FACEFACETOPO | MeshModel::MM_FACECURVDIR |
+    MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_POLYGONAL;
 
 using Attributes = vcg::tri::Allocator<CMeshO>;
 
@@ -64,13 +64,13 @@ int wholeLevels(const StreamInfo& info, std::uint64_t size)
 std::uint64_t fingerprint(const CMeshO& m)
 {
 	std::uint64_t hash = std::uint64_t(m.vn) * 0x9e3779b97f4a7c15ull + std::uint64_t(m.fn);
-	const auto mix = [&hash](std::uint64_t word) {
-		hash = (hash ^ word) * 0x9e3779b97f4a7c15ull;
-		hash ^= hash >> 29;
+	const auto mix     = [&hash](std::uint64_t word) {
+        hash = (hash ^ word) * 0x9e3779b97f4a7c15ull;
+        hash ^= hash >> 29;
 	};
 	// Deleted vertices vanish when MeshLab compacts the mesh, which is no edit: count without them.
 	std::vector<std::uint64_t> rank;
-	std::uint64_t              count = 0;
+	std::uint64_t count = 0;
 	if (m.vert.size() != std::size_t(m.vn))
 		rank.resize(m.vert.size());
 	for (std::size_t i = 0; i < m.vert.size(); ++i) {
@@ -114,10 +114,10 @@ std::unique_ptr<CMeshO> exchangeMesh(MeshModel& layer, std::unique_ptr<CMeshO> m
 
 QString levelLabel(const QString& label, int level, int finest)
 {
-	QString   text   = plainLabel(label);
+	QString text     = plainLabel(label);
 	const int suffix = text.lastIndexOf('.');
 	return text.insert(
-		suffix < 0 ? text.size() : suffix, QString(" (level %1 of %2)").arg(level).arg(finest));
+	    suffix < 0 ? text.size() : suffix, QString(" (level %1 of %2)").arg(level).arg(finest));
 }
 
 QString plainLabel(QString label)
@@ -129,17 +129,17 @@ QStringList attributesNotKept(const MeshModel& layer)
 {
 	static const struct
 	{
-		int         mask;
+		int mask;
 		const char* name;
 	} kinds[] = {
-		{MeshModel::MM_VERTCOLOR, "vertex colours"},
-		{MeshModel::MM_VERTQUALITY, "vertex quality"},
-		{MeshModel::MM_VERTRADIUS, "vertex radius"},
-		{MeshModel::MM_VERTTEXCOORD, "vertex texture coordinates"},
-		{MeshModel::MM_WEDGTEXCOORD, "wedge texture coordinates"},
-		{MeshModel::MM_FACECOLOR, "face colours"},
-		{MeshModel::MM_FACEQUALITY, "face quality"},
-		{MeshModel::MM_POLYGONAL, "polygons (they become triangles)"},
+	    {MeshModel::MM_VERTCOLOR, "vertex colours"},
+	    {MeshModel::MM_VERTQUALITY, "vertex quality"},
+	    {MeshModel::MM_VERTRADIUS, "vertex radius"},
+	    {MeshModel::MM_VERTTEXCOORD, "vertex texture coordinates"},
+	    {MeshModel::MM_WEDGTEXCOORD, "wedge texture coordinates"},
+	    {MeshModel::MM_FACECOLOR, "face colours"},
+	    {MeshModel::MM_FACEQUALITY, "face quality"},
+	    {MeshModel::MM_POLYGONAL, "polygons (they become triangles)"},
 	};
 	QStringList names;
 	for (const auto& kind : kinds)

@@ -24,15 +24,15 @@ using SharedBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
 /// other. It goes with the layer and does not follow a duplicate of it.
 struct LayerStream
 {
-	SharedBytes   bytes;           ///< a whole `.wmc`, or the part of it that was read
-	int           level       = 0; ///< that the layer showed when this was written
+	SharedBytes bytes;             ///< a whole `.wmc`, or the part of it that was read
+	int level                 = 0; ///< that the layer showed when this was written
 	std::uint64_t fingerprint = 0; ///< of the mesh then: another one now means that it was edited
 };
 
 /// @return null if the layer has none
 const LayerStream* findStream(const CMeshO& m);
-void               keepStream(CMeshO& m, LayerStream stream);
-void               dropStream(CMeshO& m);
+void keepStream(CMeshO& m, LayerStream stream);
+void dropStream(CMeshO& m);
 
 /// How many levels, from the base mesh on, the first `size` bytes of a stream hold whole.
 int wholeLevels(const StreamInfo& info, std::uint64_t size);
@@ -44,8 +44,8 @@ std::uint64_t fingerprint(const CMeshO& m);
 std::unique_ptr<CMeshO> makeMesh(const MeshData& data);
 
 /// Exchanges what the layer shows for `mesh`, and its data mask of optional data for `dataMask`.
-/// The transformation and the camera stay the layer's. No element is copied: what comes back can be put
-/// back, bit for bit.
+/// The transformation and the camera stay the layer's. No element is copied: what comes back can be
+/// put back, bit for bit.
 /// @return the mesh that was there, with its attributes (streams among them)
 std::unique_ptr<CMeshO>
 exchangeMesh(MeshModel& layer, std::unique_ptr<CMeshO> mesh, int dataMask = MeshModel::MM_NONE);

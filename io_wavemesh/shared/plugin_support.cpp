@@ -17,12 +17,14 @@ QString explain(const Status& status)
 	switch (status.code) {
 	case StatusCode::Unsupported:
 		return text + " The mesh has to be an oriented manifold. These filters help: Remove "
-					  "Unreferenced Vertices, Remove Duplicate Faces, Repair non Manifold Edges, "
-					  "Repair non Manifold Vertices by splitting, Re-Orient all faces coherently.";
-	case StatusCode::VersionTooNew: return text + " A newer Wavemesh is needed to read it.";
+		              "Unreferenced Vertices, Remove Duplicate Faces, Repair non Manifold Edges, "
+		              "Repair non Manifold Vertices by splitting, Re-Orient all faces coherently.";
+	case StatusCode::VersionTooNew:
+		return text + " A newer Wavemesh is needed to read it.";
 	case StatusCode::OutOfMemory:
 		return text + " Open it at a coarser level, or close other layers.";
-	default: return text;
+	default:
+		return text;
 	}
 }
 

@@ -29,7 +29,7 @@ void require(const Status& status, const QString& doing);
 
 /// Runs `work`, the body of a plugin's entry point. MeshLab survives an MLException and nothing
 /// else, so whatever else is thrown becomes one.
-template<class Work>
+template <class Work>
 auto guarded(Work&& work) -> decltype(work())
 {
 	try {
@@ -55,9 +55,9 @@ Progress progressBar(vcg::CallBackPos* bar, const char* doing);
 
 /// Values of parameters; `missing` where a script does not give the parameter. A number may have
 /// been given as an int, a float or an enum.
-double  numberOf(const RichParameterList& list, const QString& name, double missing);
-int     integerOf(const RichParameterList& list, const QString& name, int missing);
-bool    flagOf(const RichParameterList& list, const QString& name, bool missing);
+double numberOf(const RichParameterList& list, const QString& name, double missing);
+int integerOf(const RichParameterList& list, const QString& name, int missing);
+bool flagOf(const RichParameterList& list, const QString& name, bool missing);
 QString textOf(const RichParameterList& list, const QString& name, const QString& missing);
 
 /// A count for a result map: an int as long as it fits, as scripts expect.
