@@ -75,7 +75,7 @@ inline int bitLength(std::uint64_t x)
 }
 
 /// Unsigned integer below 2^MaxBits: its length in unary, then the bits below the leading one, the
-/// first two of them modelled.
+/// first of them modelled, the rest equally likely.
 template <int MaxBits>
 class AdaptiveUnsigned
 {
