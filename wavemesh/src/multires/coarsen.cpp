@@ -66,7 +66,7 @@ private:
 	/// Lets the edges around `v` end in children straight behind them, then grows from there.
 	void seed(Index v)
 	{
-		const Star s = state_.star(v);
+		const Star& s = state_.star(v);
 		for (int i = 0; i < s.size && s.size <= Star::kMax; ++i)
 			addOpposite(s.ring[i], v);
 		grow();
@@ -77,7 +77,7 @@ private:
 	{
 		if (state_.isChild(child) || state_.isParent(child) || state_.isChild(parent))
 			return;
-		const Star s = state_.star(child);
+		const Star& s = state_.star(child);
 		if (s.size != 6 || s.boundary)
 			return;
 		const int at = s.find(parent);
@@ -206,7 +206,7 @@ private:
 	{
 		if (state_.isChild(v) || state_.isParent(v))
 			return false;
-		const Star s = state_.star(v);
+		const Star& s = state_.star(v);
 		if (s.size > Star::kMax)
 			return false;
 		struct Option
@@ -218,7 +218,7 @@ private:
 		for (int i = 0; i < s.size; ++i)
 			for (int k = i + 2; k < s.size; ++k) {
 				Side side[2];
-				const int n = state_.sides(s, s.ring[i], s.ring[k], side);
+				const int n = CoarsenState::sides(s, i, k, side);
 				if (n == 0)
 					continue;
 				int score = (staysAnyway(s.ring[i]) ? 8 : 0) + (staysAnyway(s.ring[k]) ? 8 : 0);
@@ -314,7 +314,7 @@ private:
 
 	void emitCentre(Index v)
 	{
-		const Star s = state_.star(v);
+		const Star& s = state_.star(v);
 		out_.centre.resize(out_.faceCode.size(), kNone);
 		out_.centre.push_back(v);
 		face(
