@@ -4,6 +4,7 @@
 /// arithmetic only: encoder and decoder learn the same, bit for bit, on every machine.
 #pragma once
 
+#include "entropy/bit_length.h"
 #include "entropy/logistic.h"
 
 #include <algorithm>
@@ -30,17 +31,21 @@ class AdaptiveBit
 {
 public:
 	Probability p() const { return std::clamp<Probability>(state_ >> 16, 1, 65535); }
+	/// stretch(p())
+	int stretched() const { return kLogistic.stretch[state_ >> 20]; }
 	int age() const { return static_cast<int>(state_ & 1023); }
 
-	void update(bool bit, int limit)
+	void update(bool bit, int limit) { move(bit ? kMost : 0, limit); }
+	static constexpr std::int32_t kMost = (1 << 22) - 1;
+	/// update(), its target found once for many.
+	void move(std::int32_t target, int limit)
 	{
-		const std::int32_t n      = age();
-		const std::int32_t old    = static_cast<std::int32_t>(state_ >> 10);
-		const std::int32_t target = bit ? (1 << 22) - 1 : 0;
-		const std::int32_t step   = static_cast<std::int32_t>(
-            (std::int64_t(target - old) * kAdaptiveSteps.of[static_cast<std::size_t>(n)]) >> 16);
-		state_ = (static_cast<std::uint32_t>(old + step) << 10) |
-		         static_cast<std::uint32_t>(n < limit ? n + 1 : n);
+		const std::uint32_t n  = state_ & 1023;
+		const std::int32_t old = static_cast<std::int32_t>(state_ >> 10);
+		const std::int32_t step =
+		    static_cast<std::int32_t>((std::int64_t(target - old) * kAdaptiveSteps.of[n]) >> 16);
+		state_ = (static_cast<std::uint32_t>(old + step) << 10) +
+		         (n + std::uint32_t(n < static_cast<std::uint32_t>(limit)));
 	}
 
 private:
@@ -64,14 +69,6 @@ std::uint32_t codeRaw(Coder& coder, int bits, std::uint32_t value)
 	for (int i = bits - 1; i >= 0; --i)
 		out = (out << 1) | std::uint32_t(coder.bit((value >> i) & 1, 32768));
 	return out;
-}
-
-inline int bitLength(std::uint64_t x)
-{
-	int n = 0;
-	for (; x != 0; x >>= 1)
-		++n;
-	return n;
 }
 
 /// Unsigned integer below 2^MaxBits: its length in unary, then the bits below the leading one, the
@@ -142,13 +139,25 @@ public:
 	bool
 	code(Coder& coder, const std::array<AdaptiveBit*, N>& models, int set, bool value, int limit)
 	{
+		return code(coder, models, 0, set, value, limit);
+	}
+	/// The same with the models at place `at` of `rows`.
+	template <class Coder>
+	bool code(
+	    Coder& coder,
+	    const std::array<AdaptiveBit*, N>& rows,
+	    std::size_t at,
+	    int set,
+	    bool value,
+	    int limit)
+	{
 		Set& s = sets_[std::size_t(set)];
 		std::array<std::int32_t, N> input;
 		std::int32_t sum = 0;
-		for (std::size_t i = 0; i < N; ++i)
-			input[i] = stretch(models[i]->p());
-		for (std::size_t i = 0; i < N; ++i)
+		for (std::size_t i = 0; i < N; ++i) {
+			input[i] = rows[i][at].stretched();
 			sum += input[i] * s.weight[i];
+		}
 		const Probability p = squash(sum >> kFraction);
 		value               = coder.bit(value, p);
 
@@ -157,8 +166,9 @@ public:
 		for (std::size_t i = 0; i < N; ++i)
 			s.weight[i] = std::clamp(
 			    s.weight[i] + ((input[i] * error + (1 << 17)) >> 18), -kLargest, kLargest);
+		const std::int32_t target = value ? AdaptiveBit::kMost : 0;
 		for (std::size_t i = 0; i < N; ++i)
-			models[i]->update(value, limit);
+			rows[i][at].move(target, limit);
 		return value;
 	}
 

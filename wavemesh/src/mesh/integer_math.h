@@ -4,6 +4,7 @@
 /// lattice coordinates wrap around, lengths are measured by their largest coordinate.
 #pragma once
 
+#include "entropy/bit_length.h"
 #include "mesh/corner_table.h"
 
 namespace wavemesh {
@@ -23,9 +24,7 @@ inline int log2Quarters(std::uint64_t x)
 {
 	if (x == 0)
 		return 0;
-	int length = 0;
-	for (std::uint64_t y = x; y != 0; y >>= 1)
-		++length;
+	const int length        = bitLength(x);
 	const std::uint64_t top = length >= 3 ? x >> (length - 3) : x << (3 - length);
 	return 4 * (length - 1) + static_cast<int>(top & 3);
 }

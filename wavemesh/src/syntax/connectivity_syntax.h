@@ -54,9 +54,13 @@ public:
 	    const std::vector<LatticePoint>& positions) :
 	        coder_(coder),
 	        models_(models), parent_(parent), positions_(positions), valence_(valences(parent)),
-	        known_(parent.cornerCount(), kUnknown), splitsAt_(parent.vertexCount, 0),
-	        wholesAt_(parent.vertexCount, 0)
+	        length_(parent.cornerCount()), known_(parent.cornerCount(), kUnknown),
+	        splitsAt_(parent.vertexCount, 0), wholesAt_(parent.vertexCount, 0)
 	{
+		for (Index c = 0; c < parent.cornerCount(); ++c) {
+			const Index d = parent.opposite[c];
+			length_[c]    = d < c ? length_[d] : std::uint8_t(lengthOf(next(c), prev(c)));
+		}
 	}
 
 	void code(Refinement& r)
@@ -125,9 +129,10 @@ private:
 
 		int left = faceState(c), right = faceState(d);
 		// Mean of the edges around, in quarters of an octave of squared length.
-		const int own   = lengthOf(a, b);
-		int around      = lengthOf(a, l) + lengthOf(b, l);
-		around          = o == kNone ? around / 2 : (around + lengthOf(a, o) + lengthOf(b, o)) / 4;
+		const int own   = length_[c];
+		int around      = length_[nextCorner(c)] + length_[prevCorner(c)];
+		around          = d == kNone ? around / 2
+		                             : (around + length_[nextCorner(d)] + length_[prevCorner(d)]) / 4;
 		const int ratio = ratioClass(own - around);
 		// How far the far vertices are apart, against the edge: high for narrow pairs of faces.
 		const int across = o == kNone ? 0 : ratioClass(lengthOf(l, o) - own - 4);
@@ -259,7 +264,7 @@ private:
 	int flipGain(Index corner, Index edge) const
 	{
 		const Index across = parent_.opposite[edge];
-		const int own = lengthOf(next(edge), prev(edge)) + 8; // four times the square, below too
+		const int own      = length_[edge] + 8; // four times the square, below too
 		return ratioClass(
 		    own -
 		    log2Quarters(distanceToMiddle(parent_.vertex[across], next(corner), prev(corner))));
@@ -272,6 +277,7 @@ private:
 	const CornerTable& parent_;
 	const std::vector<LatticePoint>& positions_;
 	std::vector<Index> valence_;
+	std::vector<std::uint8_t> length_;              ///< #corners: lengthOf() the edge it faces
 	std::vector<Known> known_;                      ///< #corners
 	std::vector<std::uint8_t> splitsAt_, wholesAt_; ///< #V: known edges, at most 3
 };
