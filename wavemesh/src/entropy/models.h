@@ -35,17 +35,16 @@ public:
 	int stretched() const { return kLogistic.stretch[state_ >> 20]; }
 	int age() const { return static_cast<int>(state_ & 1023); }
 
-	void update(bool bit, int limit) { move(bit ? kMost : 0, limit); }
-	static constexpr std::int32_t kMost = (1 << 22) - 1;
+	void update(bool bit, int limit) { move(target(bit), limit); }
+	/// State of the probability that a bit is a sign of.
+	static std::int64_t target(bool bit) { return bit ? std::int64_t {0xffffffff} : 1023; }
 	/// update(), its target found once for many.
-	void move(std::int32_t target, int limit)
+	void move(std::int64_t target, int limit)
 	{
-		const std::uint32_t n  = state_ & 1023;
-		const std::int32_t old = static_cast<std::int32_t>(state_ >> 10);
-		const std::int32_t step =
-		    static_cast<std::int32_t>((std::int64_t(target - old) * kAdaptiveSteps.of[n]) >> 16);
-		state_ = (static_cast<std::uint32_t>(old + step) << 10) +
-		         (n + std::uint32_t(n < static_cast<std::uint32_t>(limit)));
+		const std::uint32_t n     = state_ & 1023;
+		const std::int64_t change = ((target - state_) >> 10) * kAdaptiveSteps.of[n];
+		state_ += (static_cast<std::uint32_t>(change >> 6) & ~std::uint32_t {1023}) +
+		          ((n - static_cast<std::uint32_t>(limit)) >> 31); // 1 where n < limit
 	}
 
 private:
@@ -121,6 +120,20 @@ private:
 	AdaptiveUnsigned<MaxBits> magnitude_;
 };
 
+/// Learning rate of a mixer's weights after n bits: 3 + 768 / (n + 49), and 4 in the end.
+struct MixerRates
+{
+	static constexpr std::uint32_t kYoung = 512;
+	std::int32_t of[kYoung + 1];
+	constexpr MixerRates() : of()
+	{
+		for (std::uint32_t n = 0; n < kYoung; ++n)
+			of[n] = static_cast<std::int32_t>(3 + 768 / (n + 49));
+		of[kYoung] = 4;
+	}
+};
+inline constexpr MixerRates kMixerRates {};
+
 /// Logistic mixing of N models: p = squash(sum of weight * stretch(p_i)), the weights learn from
 /// every bit (PAQ family; M. Mahoney). Everything fits into 32 bits.
 template <int N>
@@ -166,7 +179,7 @@ public:
 		for (std::size_t i = 0; i < N; ++i)
 			s.weight[i] = std::clamp(
 			    s.weight[i] + ((input[i] * error + (1 << 17)) >> 18), -kLargest, kLargest);
-		const std::int32_t target = value ? AdaptiveBit::kMost : 0;
+		const std::int64_t target = AdaptiveBit::target(value);
 		for (std::size_t i = 0; i < N; ++i)
 			rows[i][at].move(target, limit);
 		return value;
@@ -181,17 +194,15 @@ private:
 	struct Set
 	{
 		std::array<std::int32_t, N> weight; ///< 1/16384
-		std::int32_t seen = 0;
+		std::uint32_t seen = 0;
 
 		/// Learning rate: high at first, then slow.
 		std::int32_t rate()
 		{
-			if (seen == kYoung)
-				return 4;
-			++seen;
-			return 3 + 768 / (seen + 48);
+			const std::int32_t r = kMixerRates.of[seen];
+			seen += static_cast<std::uint32_t>(seen < kMixerRates.kYoung);
+			return r;
 		}
-		static constexpr std::int32_t kYoung = 512;
 	};
 	std::vector<Set> sets_;
 };
