@@ -111,10 +111,9 @@ private:
 	/// 4:1 on one side of a child, if the state allows it.
 	bool mergeFour(Index child, int sideIndex)
 	{
-		Side side[2];
-		if (sideIndex >= state_.sides(child, side))
+		if (sideIndex >= CoarsenState::sideCount(state_.star(child)))
 			return true;
-		const Side& s    = side[sideIndex];
+		const Side s     = state_.side(child, sideIndex);
 		const Index apex = s.count == 2 ? state_.across(s.corner[1]) : kNone;
 		if (apex == kNone)
 			return false;
@@ -128,10 +127,7 @@ private:
 	/// Best pattern that the state still allows on one side of a child.
 	void growSide(Index child, int sideIndex)
 	{
-		Side side[2];
-		if (sideIndex >= state_.sides(child, side))
-			return;
-		const Side& s = side[sideIndex];
+		const Side s = state_.side(child, sideIndex);
 		if (s.count == 2) {
 			if (mergeFour(child, sideIndex))
 				return;
@@ -213,22 +209,21 @@ private:
 		{
 			int score;
 			Index a, b;
-		} options[15];
+		} options[5];
 		int count = 0;
 		for (int i = 0; i < s.size; ++i)
 			for (int k = i + 2; k < s.size; ++k) {
-				Side side[2];
-				const int n = CoarsenState::sides(s, i, k, side);
-				if (n == 0)
+				if (!CoarsenState::fits(s, i, k))
 					continue;
 				int score = (staysAnyway(s.ring[i]) ? 8 : 0) + (staysAnyway(s.ring[k]) ? 8 : 0);
-				for (int m = 0; m < n; ++m)
-					score += sideScore(side[m]);
-				options[count++] = {score, s.ring[i], s.ring[k]};
+				for (int m = 0; m < CoarsenState::sideCount(s); ++m)
+					score += sideScore(CoarsenState::side(s, i, k, m));
+				// The best first, and of equals the one found first.
+				int at = count++;
+				for (; at > 0 && options[at - 1].score < score; --at)
+					options[at] = options[at - 1];
+				options[at] = {score, s.ring[i], s.ring[k]};
 			}
-		std::stable_sort(options, options + count, [](const Option& a, const Option& b) {
-			return a.score > b.score;
-		});
 		for (int i = 0; i < count; ++i) {
 			const ChildOf p {v, options[i].a, options[i].b};
 			if (add(&p, 1))
@@ -324,10 +319,10 @@ private:
 
 	void emitChild(Index m)
 	{
-		Side side[2];
-		const int n = state_.sides(m, side);
-		for (int i = 0; i < n; ++i)
-			emitSide(m, side[i], state_.pattern(m, side[i], i));
+		for (int i = 0; i < CoarsenState::sideCount(state_.star(m)); ++i) {
+			const Side side = state_.side(m, i);
+			emitSide(m, side, state_.pattern(m, side, i));
+		}
 	}
 
 	/// The edge of child m is keyed by its half towards the first parent.

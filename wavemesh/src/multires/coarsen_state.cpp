@@ -70,35 +70,31 @@ Side CoarsenState::sideAt(const Star& star, int from, int count)
 	return s;
 }
 
-int CoarsenState::sides(const Star& star, int a, int b, Side side[2])
+bool CoarsenState::fits(const Star& star, int a, int b)
 {
-	if (star.boundary) {
-		const int count = star.size - 2;
-		if (count < 1 || count > 2 || std::min(a, b) != 0 || std::max(a, b) != star.size - 1)
-			return 0;
-		side[0] = sideAt(star, 0, count);
-		return 1;
-	}
-	const int left = star.between(a, b), right = star.between(b, a);
-	if (left < 1 || left > 2 || right < 1 || right > 2)
-		return 0;
-	side[0] = sideAt(star, a, left);
-	side[1] = sideAt(star, b, right);
-	return 2;
+	if (star.boundary)
+		return (star.size == 3 || star.size == 4) && std::min(a, b) == 0 &&
+		       std::max(a, b) == star.size - 1;
+	const int left = star.between(a, b), right = star.size - 2 - left;
+	return left >= 1 && left <= 2 && right >= 1 && right <= 2;
+}
+
+Side CoarsenState::side(const Star& star, int a, int b, int sideIndex)
+{
+	if (star.boundary)
+		return sideAt(star, 0, star.size - 2);
+	return sideIndex == 0 ? sideAt(star, a, star.between(a, b))
+	                      : sideAt(star, b, star.between(b, a));
 }
 
 Side CoarsenState::sideWith(Index child, Index neighbour, int& sideIndex) const
 {
 	const Star& star = stars_[child];
 	const int a = vertex_[child].place[0], b = vertex_[child].place[1];
-	const int at = star.find(neighbour);
-	sideIndex    = 0;
-	if (star.boundary)
-		return sideAt(star, 0, star.size - 2);
-	if (a < b ? a < at && at < b : a < at || at < b)
-		return sideAt(star, a, star.between(a, b));
-	sideIndex = 1;
-	return sideAt(star, b, star.between(b, a));
+	const int at    = star.find(neighbour);
+	const bool left = star.boundary || (a < b ? a < at && at < b : a < at || at < b);
+	sideIndex       = left ? 0 : 1;
+	return side(star, a, b, sideIndex);
 }
 
 // ---- patterns ---------------------------------------------------------------------------------
@@ -195,13 +191,11 @@ bool CoarsenState::reserve(Index child, const Side& s, int sideIndex, Pattern fl
 	const Index neighbour = s.inner[flip == Pattern::TwoFlipAtFrom ? 0 : 1];
 	bool shared           = false;
 	if (isChild(neighbour)) {
-		Side other[2];
-		const int n = sides(neighbour, other);
-		for (int i = 0; i < n; ++i) {
+		for (int i = 0; i < sideCount(stars_[neighbour]); ++i) {
 			const Pattern p = vertex_[neighbour].flip[std::size_t(i)];
 			if (p == Pattern::Invalid)
 				continue;
-			const auto theirs = flippedBack(other[i], p);
+			const auto theirs = flippedBack(side(neighbour, i), p);
 			shared            = shared || (theirs[0] == edge[0] && theirs[1] == edge[1]) ||
 			         (theirs[0] == edge[1] && theirs[1] == edge[0]);
 		}
@@ -227,12 +221,10 @@ void CoarsenState::release(Index child, const Side& s, int sideIndex)
 
 bool CoarsenState::settle(Index child)
 {
-	Side side[2];
-	const int n = sides(child, side);
-	for (int i = 0; i < n; ++i)
-		if (!settleSide(child, side[i], i))
+	for (int i = 0; i < sideCount(stars_[child]); ++i)
+		if (!settleSide(child, side(child, i), i))
 			return false;
-	return n > 0;
+	return true;
 }
 
 /// Settles a child after a neighbour became one too: its other side sees no change.
@@ -251,8 +243,7 @@ bool CoarsenState::propose(const ChildOf& p)
 		return false;
 	const Star& s = stars_[p.child];
 	const int a = s.find(p.parentA), b = s.find(p.parentB);
-	Side side[2];
-	if (a < 0 || b < 0 || a == b || sides(s, a, b, side) == 0 || edgeInFine(p.parentA, p.parentB) ||
+	if (a < 0 || b < 0 || a == b || !fits(s, a, b) || edgeInFine(p.parentA, p.parentB) ||
 	    edgeInCoarse(p.parentA, p.parentB))
 		return false;
 	Vertex& child = vertex_[p.child];

@@ -78,14 +78,17 @@ public:
 	int coarseValence(Index v) const { return vertex_[v].coarseValence; } ///< in M^{j-1} so far
 
 	const Star& star(Index v) const { return stars_[v]; }
-	/// Sides of a vertex between two places of its ring that are to be its parents: the left side
-	/// first; a boundary vertex has one. Returns their number, 0 if it cannot be a child of these.
-	static int sides(const Star& star, int placeA, int placeB, Side side[2]);
-	/// Sides of a child.
-	int sides(Index child, Side side[2]) const
+	/// Can a vertex be a child of the neighbours at two places of its ring, as far as its faces go?
+	static bool fits(const Star& star, int placeA, int placeB);
+	/// A vertex has two sides, the left one first; on the boundary one.
+	static int sideCount(const Star& star) { return star.boundary ? 1 : 2; }
+	/// One side of a vertex whose parents are to be at these places. @pre fits()
+	static Side side(const Star& star, int placeA, int placeB, int sideIndex);
+	/// One side of a child that is no centre.
+	Side side(Index child, int sideIndex) const
 	{
-		const Vertex& v = vertex_[child];
-		return sides(stars_[child], v.place[0], v.place[1], side);
+		const auto& place = vertex_[child].place;
+		return side(stars_[child], place[0], place[1], sideIndex);
 	}
 	/// Pattern of a child's side as the state stands; vertices that are not children stay.
 	Pattern pattern(Index child, const Side& side, int sideIndex) const;
