@@ -159,14 +159,18 @@ double errorFromCode(std::uint8_t code)
 
 std::uint32_t digestOf(const CornerTable& table, const std::vector<LatticePoint>& positions)
 {
-	ByteWriter out;
-	out.bytes.reserve(12 * positions.size() + 4 * table.vertex.size());
+	std::vector<std::uint8_t> bytes(12 * positions.size() + 4 * table.vertex.size());
+	std::uint8_t* at = bytes.data();
+	const auto put   = [&at](std::uint32_t x) {
+        for (int i = 0; i < 4; ++i)
+            *at++ = static_cast<std::uint8_t>(x >> (8 * i));
+	};
 	for (const LatticePoint& p : positions)
 		for (const std::int32_t x : p)
-			out.fixed(static_cast<std::uint32_t>(x));
+			put(static_cast<std::uint32_t>(x));
 	for (const Index v : table.vertex)
-		out.fixed(v);
-	return checksum(out.bytes.data(), out.bytes.size());
+		put(v);
+	return checksum(bytes.data(), bytes.size());
 }
 
 void writeChunk(
