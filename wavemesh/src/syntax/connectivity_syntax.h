@@ -57,10 +57,15 @@ public:
 	        length_(parent.cornerCount()), known_(parent.cornerCount(), kUnknown),
 	        splitsAt_(parent.vertexCount, 0), wholesAt_(parent.vertexCount, 0)
 	{
-		for (Index c = 0; c < parent.cornerCount(); ++c) {
-			const Index d = parent.opposite[c];
-			length_[c]    = d < c ? length_[d] : std::uint8_t(lengthOf(next(c), prev(c)));
-		}
+		for (Index f = 0; f < parent.cornerCount(); f += 3)
+			for (Index k = 0; k < 3; ++k) {
+				const Index d = parent.opposite[f + k];
+				length_[f + k] =
+				    d < f + k
+				        ? length_[d]
+				        : std::uint8_t(lengthOf(
+				              parent.vertex[f + (k + 1) % 3], parent.vertex[f + (k + 2) % 3]));
+			}
 	}
 
 	void code(Refinement& r)
