@@ -88,25 +88,22 @@ private:
 	const LatticePoint& at(Index v) const { return positions_[v]; }
 	int lengthOf(Index a, Index b) const { return log2Quarters(squaredDistance(at(a), at(b))); }
 
-	static int clampTo(int x, int low, int high)
+	static int clampTo(int x, int low, int high) { return std::clamp(x, low, high) - low; }
+	int valenceClass(Index v) const
 	{
-		return x < low ? 0 : x > high ? high - low : x - low;
+		const Index valence = valence_[v];
+		return valence < 8 ? static_cast<int>(std::max(valence, Index {3}) - 3) : 5;
 	}
-	int valenceClass(Index v) const { return clampTo(static_cast<int>(valence_[v]), 3, 8); }
 	/// Class of a difference of log2Quarters() of squared lengths, 0..kLengths-1.
-	static int ratioClass(int quarters)
-	{
-		return clampTo(quarters >= 0 ? quarters / 2 : -((1 - quarters) / 2), -5, 6);
-	}
+	static int ratioClass(int quarters) { return clampTo(quarters >> 1, -5, 6); }
 
 	/// What is known of the other two edges of corner c's face: 0..5, 6 without a face.
 	int faceState(Index c) const
 	{
 		if (c == kNone)
 			return 6;
-		const int splits = (known_[nextCorner(c)] == kSplit) + (known_[prevCorner(c)] == kSplit);
-		const int wholes = (known_[nextCorner(c)] == kWhole) + (known_[prevCorner(c)] == kWhole);
-		return splits == 0 ? wholes : splits == 1 ? 3 + wholes : 5;
+		constexpr std::uint8_t kStates[3][3] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
+		return kStates[known_[nextCorner(c)]][known_[prevCorner(c)]];
 	}
 
 	void codeSplits(Refinement& r)
