@@ -26,9 +26,9 @@ public:
 
 	void run()
 	{
-		for (const bool extraordinary : {true, false})
+		for (const SeedKind kind : {kFewNeighbours, kManyNeighbours, kRegular})
 			for (Index v = 0; v < fine_.vertexCount; ++v)
-				if ((state_.valence(v) != 6) == extraordinary && !state_.isChild(v))
+				if (seedKind(v) == kind && !state_.isChild(v))
 					seed(v);
 		for (Index v = 0; v < fine_.vertexCount; ++v)
 			addAlone(v);
@@ -37,6 +37,14 @@ public:
 	const CoarsenState& state() const { return state_; }
 
 private:
+	/// Extraordinary vertices fix the parity of a subdivision, hubs too.
+	enum SeedKind { kFewNeighbours, kManyNeighbours, kRegular };
+	SeedKind seedKind(Index v) const
+	{
+		const int valence = state_.valence(v);
+		return valence < 6 ? kFewNeighbours : valence > 6 ? kManyNeighbours : kRegular;
+	}
+
 	struct Task
 	{
 		Index child;
@@ -66,9 +74,12 @@ private:
 	/// Lets the edges around `v` end in children straight behind them, then grows from there.
 	void seed(Index v)
 	{
-		const Star& s = state_.star(v);
-		for (int i = 0; i < s.size && s.size <= Star::kMax; ++i)
-			addOpposite(s.ring[i], v);
+		const Index begin = state_.star(v).corner[0]; // a hub's ring is not kept
+		Index c           = begin;
+		do {
+			addOpposite(fine_.vertex[nextCorner(c)], v);
+			c = fine_.swingLeft(c);
+		} while (c != kNone && c != begin);
 		grow();
 	}
 
