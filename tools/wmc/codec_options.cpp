@@ -72,6 +72,11 @@ void CodecOptions::addTo(CLI::App& command)
 	    ->check(CLI::PositiveNumber)
 	    ->capture_default_str()
 	    ->group(group);
+	command
+	    .add_flag(
+	        "--exact", exact,
+	        "Keep every coordinate bit for bit: the finest level is float-lossless")
+	    ->group(group);
 }
 
 EncodeOptions CodecOptions::toEncodeOptions() const
@@ -84,6 +89,7 @@ EncodeOptions CodecOptions::toEncodeOptions() const
 	o.wgc          = wgc == "off" ? Wgc::Off : wgc == "on" ? Wgc::On : Wgc::Auto;
 	o.wgcSharpness = sharpness;
 	o.wgcDeviation = deviation;
+	o.exact        = exact;
 	return o;
 }
 
@@ -119,7 +125,8 @@ std::string nameOf(const EncodeOptions& o)
 	       ", lifting " + nameOfLifting(o.lifting) + ", wgc " +
 	       (o.wgc == Wgc::Off  ? "off"
 	        : o.wgc == Wgc::On ? "on"
-	                           : "auto");
+	                           : "auto") +
+	       (o.exact ? ", exact" : "");
 }
 
 std::string messageOf(const std::string& path, const Status& status)

@@ -23,6 +23,7 @@ struct CodecOptions
 	std::string wgc     = "auto";
 	double sharpness    = 0.3;
 	double deviation    = 0.25;
+	bool exact          = false;
 
 	void addTo(CLI::App& command);
 	EncodeOptions toEncodeOptions() const;
