@@ -317,6 +317,8 @@ StreamInfo describe(const Head& head, std::size_t headEnd)
 			level.bytes    = level.prefix - previous;
 			level.bits     = head.lattice.bits;
 			level.error    = head.lattice.step * errorFromCode(row.errorCode);
+			level.connectivityBytes = row.connectivityBytes;
+			level.geometryBytes     = row.bytes - row.connectivityBytes;
 			previous       = level.prefix;
 			info.connectivityBytes += row.connectivityBytes;
 			info.geometryBytes += row.bytes - row.connectivityBytes;
