@@ -83,7 +83,7 @@ struct Report
 	static Json curveAsJson(const Run& run)
 	{
 		const Curve& c = run.curve;
-		Json j = toJson(c.info);
+		Json j         = toJson(c.info);
 		for (std::size_t i = 0; i < c.levels.size(); ++i) {
 			j["levels"][i]["bits_per_vertex"] =
 			    bitsPerVertex(c.info.levels[i].prefix, c.info.vertices);
@@ -144,8 +144,9 @@ struct Report
 		    "%s: %s vertices, %s faces\n"
 		    "RMS and max: symmetric surface distance in %% of the bounding box' diagonal (%s),\n"
 		    "the larger of the two directions, %s samples each\n",
-		    in.c_str(), grouped(all[0].curve.info.vertices).c_str(), grouped(all[0].curve.info.faces).c_str(),
-		    significant(diagonal, 6).c_str(), grouped(n).c_str());
+		    in.c_str(), grouped(all[0].curve.info.vertices).c_str(),
+		    grouped(all[0].curve.info.faces).c_str(), significant(diagonal, 6).c_str(),
+		    grouped(n).c_str());
 		for (const Run& r : all) {
 			const Curve& c = r.curve;
 			std::printf(
