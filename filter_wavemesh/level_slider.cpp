@@ -3,20 +3,27 @@
 
 #include <shared/plugin_support.h>
 
-#include <QLocale>
-
 #include <algorithm>
 #include <cmath>
 
 namespace wavemesh {
 namespace {
 
+/// As wide as a digit.
+constexpr QChar kFigureSpace(0x2007);
+
 QString grouped(std::uint64_t count)
 {
 	QString digits = QString::number(count);
 	for (int at = digits.size() - 3; at > 0; at -= 3)
-		digits.insert(at, QChar(0x00a0));
+		digits.insert(at, kFigureSpace);
 	return digits;
+}
+
+/// As wide as `widest` would be: the label, and with it the slider beside it, keeps its place.
+QString groupedAs(std::uint64_t count, std::uint64_t widest)
+{
+	return grouped(count).rightJustified(grouped(widest).size(), kFigureSpace);
 }
 
 const LevelInfo& rowOf(const StreamInfo& info, int level)
@@ -64,11 +71,12 @@ QString levelCard(const LevelRange& range, int level)
 {
 	if (range.info.levels.empty())
 		return "Level";
-	const LevelInfo& row = rowOf(range.info, level);
+	const LevelInfo &row = rowOf(range.info, level), &last = rowOf(range.info, range.finest);
 	return QString("Level %1 of 0 to %2\n%3 vertices\n%4 faces\n%5 bytes\nerror %6")
-	    .arg(level)
+	    .arg(groupedAs(std::uint64_t(level), std::uint64_t(range.finest)))
 	    .arg(range.finest)
-	    .arg(grouped(row.vertices), grouped(row.faces), grouped(row.prefix))
+	    .arg(groupedAs(row.vertices, last.vertices), groupedAs(row.faces, last.faces))
+	    .arg(groupedAs(row.prefix, last.prefix))
 	    .arg(row.error, 0, 'g', 3);
 }
 

@@ -15,13 +15,13 @@ QString presetHelp()
 	       "<b>smallest</b>: the fewest bytes for the whole mesh, whatever the coarse levels are "
 	       "like; "
 	       "encodes in several ways, which takes three times as long.<br>"
-	       "<b>balanced</b>: smooth coarse levels, and within about 1 % of the smallest size.<br>"
+	       "<b>balanced</b>: smooth coarse levels, and within about 2 % of the smallest size.<br>"
 	       "<b>best coarse levels</b>: coarse levels are closest to the original and keep sharp "
 	       "edges; "
 	       "on smooth shapes up to 3 % larger.<br>"
 	       "<b>exact</b>: the finest lattice there is, 24 bits per coordinate: no coordinate moves "
 	       "by "
-	       "more than 1/33 000 000 of the extent; about twice as large as 12 bits.";
+	       "more than 1/33 000 000 of the extent; about three times as large as 12 bits.";
 }
 
 std::vector<EncodeOptions> optionsOf(Preset preset, EncodeOptions options)
