@@ -93,17 +93,6 @@ EncodeOptions CodecOptions::toEncodeOptions() const
 	return o;
 }
 
-std::string nameOf(LevelKind kind)
-{
-	switch (kind) {
-	case LevelKind::Base:
-		return "base";
-	case LevelKind::Split:
-		return "split";
-	}
-	return "unknown";
-}
-
 std::string nameOf(Mode mode)
 {
 	switch (mode) {

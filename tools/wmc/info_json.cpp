@@ -8,11 +8,6 @@
 
 namespace wavemesh::tool {
 
-double bitsPerVertex(std::uint64_t bytes, std::uint64_t vertices)
-{
-	return vertices == 0 ? 0 : 8.0 * static_cast<double>(bytes) / static_cast<double>(vertices);
-}
-
 Json toJson(const StreamInfo& info)
 {
 	const std::uint64_t other = info.bytes - info.connectivityBytes - info.geometryBytes;

@@ -80,8 +80,11 @@ struct LevelInfo
 	/// what StreamFeatures lists.
 	std::uint64_t bytes = 0;
 	std::uint64_t prefix =
-	    0;        ///< length of the shortest prefix of the file that holds this level whole
-	int bits = 0; ///< precision of the positions, bits per coordinate
+	    0; ///< length of the shortest prefix of the file that holds this level whole
+	/// Of `bytes`, those spent on connectivity and on geometry; the rest is headers and checksums.
+	std::uint64_t connectivityBytes = 0;
+	std::uint64_t geometryBytes     = 0;
+	int bits                        = 0; ///< precision of the positions, bits per coordinate
 	/// Model units; an estimate from the details (docs/wmc_format.md), not a surface distance. 0
 	/// for the finest level.
 	double error = 0;
