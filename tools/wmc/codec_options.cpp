@@ -49,6 +49,10 @@ void CodecOptions::addTo(CLI::App& command)
 	    ->check(CLI::IsMember({"off", "0", "1", "2"}))
 	    ->capture_default_str()
 	    ->group(group);
+	command.add_option("--effort", effort, "1 decodes fast; 2 and 3 make smaller files")
+	    ->check(CLI::Range(1, 3))
+	    ->capture_default_str()
+	    ->group(group);
 	command
 	    .add_option(
 	        "--wgc", wgc,
@@ -80,6 +84,7 @@ EncodeOptions CodecOptions::toEncodeOptions() const
 	o.mode         = Mode::Classic;
 	o.bits         = bits;
 	o.step         = step;
+	o.effort       = effort;
 	o.lifting      = lifting == "off" ? kLiftingOff : lifting[0] - '0';
 	o.wgc          = wgc == "off" ? Wgc::Off : wgc == "on" ? Wgc::On : Wgc::Auto;
 	o.wgcSharpness = sharpness;

@@ -20,6 +20,7 @@ struct CodecOptions
 	double step         = 0;
 	std::string mode    = "classic";
 	std::string lifting = "0";
+	int effort          = 2;
 	std::string wgc     = "auto";
 	double sharpness    = 0.3;
 	double deviation    = 0.25;

@@ -29,6 +29,7 @@ struct Decoder::State
 	RangeDecoder coder;
 	struct Models
 	{
+		explicit Models(Contexts contexts) : connectivity(contexts) {}
 		ConnectivityModels connectivity;
 		DetailModels details;
 	};
@@ -130,7 +131,7 @@ Status Decoder::State::readSplit()
 	const LevelRow& target = row(level + 1);
 	Refinement refinement;
 	if (!models)
-		models = std::make_unique<Models>();
+		models = std::make_unique<Models>(head.rich ? Contexts::Rich : Contexts::Fast);
 	ConnectivitySyntax<RangeDecoder>(coder, models->connectivity, table, positions)
 	    .code(refinement);
 	if (coder.exhausted())

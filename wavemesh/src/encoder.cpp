@@ -27,6 +27,8 @@ Status checkOptions(const EncodeOptions& o)
 		return {StatusCode::InvalidArgument, "the sharpness threshold must be 0 to 1"};
 	if (!(o.wgcDeviation > 0 && o.wgcDeviation <= 1e6))
 		return {StatusCode::InvalidArgument, "the deviation threshold must be positive"};
+	if (o.effort < 1 || o.effort > 3)
+		return {StatusCode::InvalidArgument, "the effort must be 1, 2 or 3"};
 	return {};
 }
 
@@ -160,6 +162,7 @@ encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, co
 	Head head;
 	head.lifting = options.lifting;
 	head.wgc     = wgc;
+	head.rich    = options.effort > 1;
 	head.lattice = mesh.lattice;
 	head.digest  = digestOf(levels.finest, positions);
 
@@ -185,7 +188,7 @@ encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, co
 	// Code, from the base up; each level is synthesised on the way, as the decoder does.
 	std::vector<std::uint8_t> chunks;
 	LevelWriter writer(head, chunks);
-	ConnectivityModels connectivityModels;
+	ConnectivityModels connectivityModels(head.rich ? Contexts::Rich : Contexts::Fast);
 	DetailModels detailModels;
 	const auto row = [&](LevelKind kind, std::size_t level, std::size_t vertices,
 	                     std::size_t faces) {

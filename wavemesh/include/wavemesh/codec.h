@@ -56,6 +56,9 @@ struct EncodeOptions
 	/// to that edge's length, is below this. > 0.
 	double wgcDeviation = 0.25;
 
+	/// What the file may cost to decode: 1 fast; 2 and 3 smaller, connectivity takes twice the time.
+	int effort = 2;
+
 	Progress progress;
 };
 

@@ -36,6 +36,7 @@ struct Head
 	Mode mode          = Mode::Classic;
 	int lifting        = kLiftingOff;
 	bool wgc           = false;
+	bool rich          = false; ///< are connectivity's contexts the rich ones?
 	Lattice lattice;
 	std::uint32_t digest = 0;   ///< digestOf() the finest level
 	std::vector<LevelRow> rows; ///< coarsest first
