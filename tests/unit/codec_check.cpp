@@ -110,7 +110,7 @@ std::string nameOf(const EncodeOptions& o)
 	const char* wgc[] = {"off", "on", "auto"};
 	return (o.step > 0 ? "step " + std::to_string(o.step) : std::to_string(o.bits) + " bits") +
 	       ", lifting " + (o.lifting == kLiftingOff ? "off" : std::to_string(o.lifting)) +
-	       ", wgc " + wgc[static_cast<std::size_t>(o.wgc)];
+	       ", wgc " + wgc[static_cast<std::size_t>(o.wgc)] + ", effort " + std::to_string(o.effort);
 }
 
 namespace {

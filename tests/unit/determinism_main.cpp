@@ -62,6 +62,7 @@ int main()
 			EncodeOptions o;
 			o.bits    = 12 + 2 * lifting;
 			o.lifting = lifting;
+			o.effort  = lifting == 0 ? 1 : 2;
 			o.wgc     = lifting == kLiftingOff ? Wgc::Off : Wgc::On;
 			if (!print(m.name.c_str(), m.mesh, o))
 				return 1;

@@ -23,6 +23,7 @@ std::vector<EncodeOptions> everyPairOfOptions()
 			EncodeOptions o;
 			o.bits    = bits;
 			o.lifting = lifting;
+			o.effort  = 1 + static_cast<int>(all.size() / 2 % 3);
 			o.wgc     = kWgc[all.size() % 3];
 			all.push_back(o);
 		}

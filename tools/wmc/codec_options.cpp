@@ -50,7 +50,7 @@ void CodecOptions::addTo(CLI::App& command)
 	command
 	    .add_option(
 	        "--effort", effort,
-	        "Compact: 1 is the fastest, to encode and to decode; 3 tries several ways and keeps the "
+	        "1 is the fastest, to encode and to decode; 3 tries several ways and keeps the "
 	        "smallest file")
 	    ->check(CLI::Range(1, 3))
 	    ->capture_default_str()
@@ -98,9 +98,9 @@ EncodeOptions CodecOptions::toEncodeOptions() const
 {
 	EncodeOptions o;
 	o.mode         = mode == "classic" ? Mode::Classic : Mode::Compact;
-	o.effort       = effort;
 	o.bits         = bits;
 	o.step         = step;
+	o.effort       = effort;
 	o.lifting      = lifting == "off" ? kLiftingOff : lifting[0] - '0';
 	o.wgc          = wgc == "off" ? Wgc::Off : wgc == "on" ? Wgc::On : Wgc::Auto;
 	o.wgcSharpness = sharpness;

@@ -148,7 +148,8 @@ Status Decoder::State::readSplit()
 	const LevelRow& target = row(level + 1);
 	Refinement refinement;
 	if (!connectivityModels)
-		connectivityModels = std::make_unique<ConnectivityModels>();
+		connectivityModels = std::make_unique<ConnectivityModels>(
+		    head.rich ? Contexts::Rich : Contexts::Fast);
 	ConnectivitySyntax<RangeDecoder>(coder, *connectivityModels, table, positions).code(refinement);
 	if (coder.exhausted())
 		return ended("the connectivity");

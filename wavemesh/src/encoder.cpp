@@ -85,6 +85,7 @@ private:
 		Head head;
 		head.mode     = mode;
 		head.wgc      = wgc;
+		head.rich     = options_.effort > 1;
 		head.lattice  = mesh_.lattice;
 		head.digest   = digestOf(levels.replay.finest, levels.positions);
 		head.features = featuresFor(options_, mesh_.cut);

@@ -40,9 +40,9 @@ constexpr int kLiftingOff = -1;
 struct EncodeOptions
 {
 	Mode mode = Mode::Compact;
-	/// Compact: how hard the encoder tries, 1..3. 1 is the fastest to encode and to decode: a
-	/// classic file without lifting. 2 chooses a schedule by a look at the mesh, 3 encodes with
-	/// several and keeps the smallest.
+	/// What encoding and decoding may cost, 1..3. 1 is the fastest: the contexts of connectivity
+	/// are fewer, and a compact file becomes a classic one without lifting. 2 chooses a schedule by
+	/// a look at the mesh, 3 encodes with several and keeps the smallest.
 	int effort = 2;
 
 	/// Bits per coordinate over the largest extent of the bounding box, 1..24 (2^bits - 1 steps).

@@ -49,8 +49,9 @@ bool visitFields(Io& io, Head& h)
 		wide   = extent / steps != h.lattice.step;
 		for (const double x : h.lattice.origin)
 			wide = wide || double(float(x)) != x;
-		flags =
-		    std::uint8_t(int(h.mode) | (h.wgc ? 8 : 0) | (wide ? 16 : 0) | ((h.lifting + 1) << 5));
+		flags = std::uint8_t(
+		    int(h.mode) | (h.wgc ? 8 : 0) | (wide ? 16 : 0) | ((h.lifting + 1) << 5) |
+		    (h.rich ? 128 : 0));
 	}
 	io.fixed(flags);
 	io.fixed(h.features);
@@ -60,9 +61,10 @@ bool visitFields(Io& io, Head& h)
 		h.mode         = Mode(flags & 7);
 		h.wgc          = (flags & 8) != 0;
 		wide           = (flags & 16) != 0;
-		h.lifting      = (flags >> 5) - 1;
+		h.lifting      = ((flags >> 5) & 3) - 1;
+		h.rich         = (flags & 128) != 0;
 		h.lattice.bits = bits;
-		if (bits < 1 || bits > kMaxBits || h.mode > Mode::Compact || h.lifting > 2 ||
+		if (bits < 1 || bits > kMaxBits || h.mode > Mode::Compact ||
 		    (h.mode == Mode::Compact && h.lifting != kLiftingOff))
 			return false;
 	}

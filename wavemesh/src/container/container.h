@@ -47,6 +47,7 @@ struct Head
 	Mode mode          = Mode::Classic;
 	int lifting        = kLiftingOff;
 	bool wgc           = false;
+	bool rich          = false; ///< are connectivity's contexts the rich ones?
 	Lattice lattice;
 	std::uint32_t digest   = 0; ///< digestOf() the finest level
 	std::uint8_t features  = 0; ///< bit i: the file has feature i

@@ -63,7 +63,7 @@ bool writeClassic(Levels& levels, Head& head, std::vector<std::uint8_t>& chunks,
 
 	// From the base up; each level is synthesised on the way, as the decoder does.
 	LevelWriter writer(head, chunks);
-	ConnectivityModels connectivityModels;
+	ConnectivityModels connectivityModels(head.rich ? Contexts::Rich : Contexts::Fast);
 	DetailModels detailModels;
 	const auto row = [&](LevelKind kind, std::size_t level) {
 		LevelRow r;

@@ -70,7 +70,7 @@ bool writeCompact(
 	const std::vector<std::uint64_t> missing = missingDetails(levels, parents);
 
 	LevelWriter writer(head, chunks);
-	ConnectivityModels connectivityModels;
+	ConnectivityModels connectivityModels(head.rich ? Contexts::Rich : Contexts::Fast);
 	const auto models = std::make_unique<CompactModels>();
 	std::size_t split = 0; // levels of connectivity so far, less the base
 	int shift         = schedule.baseShift;

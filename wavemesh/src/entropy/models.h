@@ -4,8 +4,8 @@
 /// arithmetic only: encoder and decoder learn the same, bit for bit, on every machine.
 #pragma once
 
-#include "entropy/bit_length.h"
 #include "entropy/logistic.h"
+#include "mesh/integer_math.h"
 
 #include <algorithm>
 #include <array>
@@ -120,19 +120,59 @@ private:
 	AdaptiveUnsigned<MaxBits> magnitude_;
 };
 
-/// Learning rate of a mixer's weights after n bits: 3 + 768 / (n + 49), and 4 in the end.
+/// Learning rate of a mixer's weights after n bits: high at first, slow + 1 from the 512th on.
 struct MixerRates
 {
 	static constexpr std::uint32_t kYoung = 512;
-	std::int32_t of[kYoung + 1];
-	constexpr MixerRates() : of()
+	std::int32_t of[kYoung];
+	explicit constexpr MixerRates(std::int32_t slow) : of()
 	{
 		for (std::uint32_t n = 0; n < kYoung; ++n)
-			of[n] = static_cast<std::int32_t>(3 + 768 / (n + 49));
-		of[kYoung] = 4;
+			of[n] = slow + static_cast<std::int32_t>(768 / (n + 49));
 	}
 };
-inline constexpr MixerRates kMixerRates {};
+inline constexpr MixerRates kSteadyRates {3};
+inline constexpr MixerRates kAgileRates {24}; ///< where what is mixed changes quickly
+
+/// Weights of N models in a mixer, and how they learn.
+template <int N>
+class MixerWeights
+{
+public:
+	MixerWeights() { weight_.fill(kOne * 3 / (2 * N)); }
+
+	/// Sum of weight * input, in the logistic domain but not limited to it.
+	std::int32_t mix(const std::array<std::int32_t, N>& input) const
+	{
+		std::int32_t sum = 0;
+		for (std::size_t i = 0; i < N; ++i)
+			sum += input[i] * weight_[i];
+		return sum >> kFraction;
+	}
+	/// @param p  what the weights said: squash(mix(input))
+	void learn(
+	    const std::array<std::int32_t, N>& input,
+	    Probability p,
+	    bool value,
+	    const MixerRates& rates)
+	{
+		const std::int32_t error =
+		    (((value ? 65535 : 0) - static_cast<std::int32_t>(p)) * rates.of[seen_]) >> 4;
+		seen_ += static_cast<std::uint32_t>(seen_ + 1 < MixerRates::kYoung);
+		for (std::size_t i = 0; i < N; ++i)
+			weight_[i] = std::clamp(
+			    weight_[i] + ((input[i] * error + (1 << 17)) >> 18), -kLargest, kLargest);
+	}
+
+private:
+	static constexpr int kFraction         = 14;
+	static constexpr std::int32_t kOne     = 1 << kFraction;
+	static constexpr std::int32_t kLargest = 8 * kOne - 1;
+	static_assert(N <= 8, "the sum must stay below 2^31");
+
+	std::array<std::int32_t, N> weight_; ///< 1/16384
+	std::uint32_t seen_ = 0;
+};
 
 /// Logistic mixing of N models: p = squash(sum of weight * stretch(p_i)), the weights learn from
 /// every bit (PAQ family; M. Mahoney). Everything fits into 32 bits.
@@ -141,10 +181,9 @@ class Mixer
 {
 public:
 	/// @param sets  number of weight sets; one is selected for each bit
-	explicit Mixer(int sets) : sets_(std::size_t(sets))
+	explicit Mixer(int sets, const MixerRates& rates = kSteadyRates) :
+	        sets_(std::size_t(sets)), rates_(&rates)
 	{
-		for (Set& s : sets_)
-			s.weight.fill(kOne * 3 / (2 * N));
 	}
 
 	/// Codes a bit with all of `models`, which learn it too.
@@ -164,21 +203,13 @@ public:
 	    bool value,
 	    int limit)
 	{
-		Set& s = sets_[std::size_t(set)];
+		MixerWeights<N>& weights = sets_[std::size_t(set)];
 		std::array<std::int32_t, N> input;
-		std::int32_t sum = 0;
-		for (std::size_t i = 0; i < N; ++i) {
-			input[i] = rows[i][at].stretched();
-			sum += input[i] * s.weight[i];
-		}
-		const Probability p = squash(sum >> kFraction);
-		value               = coder.bit(value, p);
-
-		const std::int32_t error =
-		    (((value ? 65535 : 0) - static_cast<std::int32_t>(p)) * s.rate()) >> 4;
 		for (std::size_t i = 0; i < N; ++i)
-			s.weight[i] = std::clamp(
-			    s.weight[i] + ((input[i] * error + (1 << 17)) >> 18), -kLargest, kLargest);
+			input[i] = rows[i][at].stretched();
+		const Probability p = squash(weights.mix(input));
+		value               = coder.bit(value, p);
+		weights.learn(input, p, value, *rates_);
 		const std::int64_t target = AdaptiveBit::target(value);
 		for (std::size_t i = 0; i < N; ++i)
 			rows[i][at].move(target, limit);
@@ -186,25 +217,46 @@ public:
 	}
 
 private:
-	static constexpr int kFraction         = 14;
-	static constexpr std::int32_t kOne     = 1 << kFraction;
-	static constexpr std::int32_t kLargest = 8 * kOne - 1;
-	static_assert(N <= 8, "the sum must stay below 2^31");
+	std::vector<MixerWeights<N>> sets_;
+	const MixerRates* rates_;
+};
 
-	struct Set
+/// Two mixers of the same models, one that knows a context and one that does not, averaged in the
+/// logistic domain; each learns from its own error. What they say together is then corrected by
+/// what came of it before.
+template <int N>
+class PairMixer
+{
+public:
+	/// @param sets  number of weight sets of the one that knows a context
+	explicit PairMixer(int sets) : sets_(std::size_t(sets)) {}
+
+	template <class Coder>
+	bool
+	code(Coder& coder, const std::array<AdaptiveBit*, N>& models, int set, bool value, int limit)
 	{
-		std::array<std::int32_t, N> weight; ///< 1/16384
-		std::uint32_t seen = 0;
+		MixerWeights<N>& special = sets_[std::size_t(set)];
+		std::array<std::int32_t, N> input;
+		for (std::size_t i = 0; i < N; ++i)
+			input[i] = models[i]->stretched();
+		const std::int32_t a = special.mix(input), b = general_.mix(input);
+		const std::int32_t both = std::clamp((a + b) >> 1, -kStretchMax, kStretchMax);
+		AdaptiveBit& correction = corrections_[static_cast<std::size_t>((both + 2048) >> 7)];
+		value                   = coder.bit(
+		                      value, std::clamp<Probability>((3 * squash(both) + correction.p()) / 4, 32, 65503));
+		special.learn(input, squash(a), value, kAgileRates);
+		general_.learn(input, squash(b), value, kAgileRates);
+		correction.update(value, 255);
+		const std::int64_t target = AdaptiveBit::target(value);
+		for (std::size_t i = 0; i < N; ++i)
+			models[i]->move(target, limit);
+		return value;
+	}
 
-		/// Learning rate: high at first, then slow.
-		std::int32_t rate()
-		{
-			const std::int32_t r = kMixerRates.of[seen];
-			seen += static_cast<std::uint32_t>(seen < kMixerRates.kYoung);
-			return r;
-		}
-	};
-	std::vector<Set> sets_;
+private:
+	std::vector<MixerWeights<N>> sets_;
+	MixerWeights<N> general_;
+	std::array<AdaptiveBit, 32> corrections_; ///< by what both say
 };
 
 } // namespace wavemesh

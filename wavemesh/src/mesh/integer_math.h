@@ -4,7 +4,6 @@
 /// lattice coordinates wrap around, lengths are measured by their largest coordinate.
 #pragma once
 
-#include "entropy/bit_length.h"
 #include "mesh/corner_table.h"
 
 namespace wavemesh {
@@ -17,6 +16,19 @@ inline std::int32_t wrappingAdd(std::int32_t a, std::int32_t b)
 inline std::int32_t wrappingSubtract(std::int32_t a, std::int32_t b)
 {
 	return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+}
+
+/// Number of binary digits: 0 for 0, 1 for 1, 3 for 4.
+inline int bitLength(std::uint64_t x)
+{
+#if defined(__GNUC__)
+	return x == 0 ? 0 : 64 - __builtin_clzll(x);
+#else
+	int n = 0;
+	for (; x != 0; x >>= 1)
+		++n;
+	return n;
+#endif
 }
 
 /// 4 log2(x), rounded down to a multiple of one with the leading bits for a fraction; 0 for x = 0.

@@ -7,13 +7,26 @@
 #include "entropy/models.h"
 #include "mesh/integer_math.h"
 #include "multires/refine.h"
+#include "syntax/split_contexts.h"
+#include "syntax/valence_forecast.h"
+
+#include <optional>
 
 namespace wavemesh {
+
+/// Which contexts connectivity is coded with.
+enum class Contexts : std::uint8_t {
+	Fast, ///< what the faces next to an edge tell
+	Rich, ///< lengths known around, valences to come; half as fast
+};
 
 /// Learned state of the connectivity; lives through all levels of a file.
 class ConnectivityModels
 {
 public:
+	explicit ConnectivityModels(Contexts c) : contexts(c) {}
+	Contexts contexts;
+
 	static constexpr int kSplitInputs = 5;
 	static constexpr int kLengths     = 12; ///< classes of a ratio of lengths
 
@@ -23,6 +36,15 @@ public:
 	std::vector<AdaptiveBit> splitByEnds {4 * 4 * 4 * 4 * 3};
 	std::vector<AdaptiveBit> splitByShape {kLengths * kLengths * 9};
 	Mixer<kSplitInputs> splitMixer {7 * 7};
+
+	static constexpr int kRichInputs = 8;
+	std::vector<AdaptiveBit> splitByGlobal {SplitContexts::kGlobal * 7 * 7};
+	std::vector<AdaptiveBit> splitByLocal {SplitContexts::kLocal * 7 * 7};
+	std::vector<AdaptiveBit> splitByBoth {SplitContexts::kGlobal * SplitContexts::kLocal};
+	std::vector<AdaptiveBit> splitByExcess {SplitContexts::kExcess * kLengths};
+	std::vector<AdaptiveBit> splitByOuter {SplitContexts::kOuter * SplitContexts::kExcess};
+	PairMixer<kRichInputs> splitPairMixer {7 * 7};
+	SplitLengths splitLengths;
 
 	static constexpr int kDiagonalInputs = 2;
 	std::vector<AdaptiveBit> diagonalByValences {5 * 5 * 3};
@@ -34,6 +56,12 @@ public:
 	std::vector<AdaptiveBit> flipByNeighbours {3 * 3 * 5};
 	Mixer<kFlipInputs> flipMixer {1};
 	std::vector<AdaptiveBit> flipSide {kLengths * 3};
+
+	static constexpr int kRichFlipInputs = 4;
+	static constexpr int kFlipGains      = 13; ///< classes of ValenceForecast::flipGain()
+	std::vector<AdaptiveBit> flipByValences {8 * 13};
+	std::vector<AdaptiveBit> flipByGain {kLengths * kFlipGains};
+	Mixer<kRichFlipInputs> richFlipMixer {1, kAgileRates};
 
 	AdaptiveBit hasCentres;
 	AdaptiveBit centre;
@@ -66,6 +94,8 @@ public:
 				        : std::uint8_t(lengthOf(
 				              parent.vertex[f + (k + 1) % 3], parent.vertex[f + (k + 2) % 3]));
 			}
+		if (models.contexts == Contexts::Rich)
+			lengths_.emplace(parent, length_, valence_, models.splitLengths);
 	}
 
 	void code(Refinement& r)
@@ -124,23 +154,28 @@ private:
 		}
 	}
 
-	bool codeSplit(Index c, Index d, bool split)
+	/// What both sets of contexts know of an edge, the same from either side.
+	struct Edge
 	{
-		const Index a = next(c), b = prev(c), l = parent_.vertex[c];
-		const Index o = d == kNone ? kNone : parent_.vertex[d];
+		Index corner;
+		int states; ///< of the two faces, 0..48
+		int left, right;
+		int ratio; ///< length against the edges around
+		std::size_t byFaces, byValences, byEnds;
+	};
 
+	Edge describe(Index c, Index d) const
+	{
+		const Index a = next(c), b = prev(c);
 		int left = faceState(c), right = faceState(d);
 		// Mean of the edges around, in quarters of an octave of squared length.
-		const int own   = length_[c];
 		int around      = length_[nextCorner(c)] + length_[prevCorner(c)];
 		around          = d == kNone ? around / 2
 		                             : (around + length_[nextCorner(d)] + length_[prevCorner(d)]) / 4;
-		const int ratio = ratioClass(own - around);
-		// How far the far vertices are apart, against the edge: high for narrow pairs of faces.
-		const int across = o == kNone ? 0 : ratioClass(lengthOf(l, o) - own - 4);
+		const int ratio = ratioClass(length_[c] - around);
 
-		int va = valenceClass(a), vb = valenceClass(b), vl = valenceClass(l);
-		int vo = o == kNone ? 0 : valenceClass(o);
+		int va = valenceClass(a), vb = valenceClass(b), vl = valenceClass(parent_.vertex[c]);
+		int vo = d == kNone ? 0 : valenceClass(parent_.vertex[d]);
 		if (left > right)
 			std::swap(left, right);
 		if (va > vb)
@@ -150,26 +185,64 @@ private:
 		int ea = endState(a), eb = endState(b);
 		if (ea > eb)
 			std::swap(ea, eb);
+		const int states = left * 7 + right;
+		return {
+		    c,
+		    states,
+		    left,
+		    right,
+		    ratio,
+		    index((states * 5 + std::min(vl, 4)) * 5 + std::min(vo, 4)),
+		    index(((va * 6 + vb) * 6 + vl) * 6 + vo),
+		    index((ea * 16 + eb) * 3 + (left >= 3) + (right >= 3))};
+	}
 
-		ConnectivityModels& m = models_;
-		const int lr          = left * 7 + right;
-		split                 = m.splitMixer.code(
-		                    coder_,
-		                    {&m.splitByFaces[index((lr * 5 + std::min(vl, 4)) * 5 + std::min(vo, 4))],
-		                     &m.splitByLength[index(ratio * 49 + lr)],
-		                     &m.splitByValences[index(((va * 6 + vb) * 6 + vl) * 6 + vo)],
-		                     &m.splitByEnds[index((ea * 16 + eb) * 3 + (left >= 3) + (right >= 3))],
-		                     &m.splitByShape[index(
-		                         (ratio * 12 + across) * 9 + (left / 2 % 3) * 3 + right / 2 % 3)]},
-		                    lr, split, 255);
-		known_[c] = split ? kSplit : kWhole;
+	bool codeSplit(Index c, Index d, bool split)
+	{
+		const Edge edge = describe(c, d);
+		split           = lengths_ ? codeRich(edge, split) : codeFast(edge, d, split);
+		known_[c]       = split ? kSplit : kWhole;
 		if (d != kNone)
 			known_[d] = known_[c];
-		for (const Index v : {a, b}) {
+		for (const Index v : {next(c), prev(c)}) {
 			std::uint8_t& count = split ? splitsAt_[v] : wholesAt_[v];
 			if (count < 3)
 				++count;
 		}
+		return split;
+	}
+
+	bool codeFast(const Edge& e, Index d, bool split)
+	{
+		// How far the far vertices are apart, against the edge: high for narrow pairs of faces.
+		const int across      = d == kNone ? 0
+		                                   : ratioClass(
+		                                         lengthOf(parent_.vertex[e.corner], parent_.vertex[d]) -
+		                                         length_[e.corner] - 4);
+		ConnectivityModels& m = models_;
+		return m.splitMixer.code(
+		    coder_,
+		    {&m.splitByFaces[e.byFaces], &m.splitByLength[index(e.ratio * 49 + e.states)],
+		     &m.splitByValences[e.byValences], &m.splitByEnds[e.byEnds],
+		     &m.splitByShape[index(
+		         (e.ratio * 12 + across) * 9 + (e.left / 2 % 3) * 3 + e.right / 2 % 3)]},
+		    e.states, split, 255);
+	}
+
+	bool codeRich(const Edge& e, bool split)
+	{
+		const SplitContexts::Classes l = lengths_->classesOf(e.corner, known_);
+		ConnectivityModels& m          = models_;
+		split                          = m.splitPairMixer.code(
+		                             coder_,
+		                             {&m.splitByFaces[e.byFaces], &m.splitByValences[e.byValences], &m.splitByEnds[e.byEnds],
+		                              &m.splitByGlobal[index(l.global * 49 + e.states)],
+		                              &m.splitByLocal[index(l.local * 49 + e.states)],
+		                              &m.splitByBoth[index(l.global * SplitContexts::kLocal + l.local)],
+		                              &m.splitByExcess[index(l.excess * 12 + e.ratio)],
+		                              &m.splitByOuter[index(l.outer * SplitContexts::kExcess + l.excess)]},
+		                             e.states, split, 180);
+		lengths_->learn(e.corner, split);
 		return split;
 	}
 
@@ -179,6 +252,8 @@ private:
 	{
 		r.hasCentres = codeBit(coder_, models_.hasCentres, r.hasCentres);
 		std::vector<std::uint8_t> flipped(parent_.faceCount(), 0);
+		if (models_.contexts == Contexts::Rich)
+			forecast_.emplace(parent_, valence_, r);
 		for (Index f = 0; f < parent_.faceCount() && !coder_.exhausted(); ++f) {
 			const FaceShape shape = faceShape(r.childOnEdge, f);
 			FaceCode& code        = r.faceCode[f];
@@ -216,6 +291,8 @@ private:
 		     &models_.diagonalByLength[index(ratioClass(d2 - d1))]},
 		    0, code == kFaceDiagonal1, 255);
 		code = one ? kFaceDiagonal1 : kFaceNone;
+		if (forecast_)
+			forecast_->diagonal(corner, one);
 	}
 	/// Four times the squared distance from v to the middle of a and b.
 	std::uint64_t distanceToMiddle(Index v, Index a, Index b) const
@@ -239,13 +316,28 @@ private:
 		const int gain1 = can1 ? flipGain(corner, c1) : 0;
 		const int gain2 = can2 ? flipGain(corner, c2) : 0;
 		const int high = std::max(gain1, gain2), low = std::min(gain1, gain2);
-		const bool flip = models_.flipMixer.code(
-		    coder_,
-		    {&models_.flipByLength[index(high * 12 + low)],
-		     &models_.flipByNeighbours[index(
-		         (partner(r, c1, can1) * 3 + partner(r, c2, can2)) * 5 +
-		         std::min(valenceClass(parent_.vertex[corner]), 4))]},
-		    0, code != kFaceNone, 255);
+		const std::size_t byLength     = index(high * 12 + low);
+		const std::size_t byNeighbours = index(
+		    (partner(r, c1, can1) * 3 + partner(r, c2, can2)) * 5 +
+		    std::min(valenceClass(parent_.vertex[corner]), 4));
+		ConnectivityModels& m = models_;
+		bool flip             = code != kFaceNone;
+		if (forecast_) {
+			const int gain = std::max(
+			    can1 ? flipGainClass(corner, c1) : 0, can2 ? flipGainClass(corner, c2) : 0);
+			const int child = clampTo(forecast_->of(r.childOnEdge[corner]), 8, 15);
+			const int apex  = clampTo(forecast_->of(parent_.vertex[corner]), 8, 20);
+			flip            = m.richFlipMixer.code(
+			               coder_,
+			               {&m.flipByLength[byLength], &m.flipByNeighbours[byNeighbours],
+			                &m.flipByValences[index(child * 13 + apex)],
+			                &m.flipByGain[index(high * ConnectivityModels::kFlipGains + gain)]},
+			               0, flip, 255);
+		}
+		else
+			flip = m.flipMixer.code(
+			    coder_, {&m.flipByLength[byLength], &m.flipByNeighbours[byNeighbours]}, 0, flip,
+			    255);
 		if (!flip)
 			return;
 		bool second = !can1;
@@ -256,6 +348,12 @@ private:
 		const Index edge                    = second ? c2 : c1;
 		flipped[edge / 3]                   = 1;
 		flipped[parent_.opposite[edge] / 3] = 1;
+		if (forecast_)
+			forecast_->flip(corner, edge);
+	}
+	int flipGainClass(Index corner, Index edge) const
+	{
+		return 1 + clampTo(forecast_->flipGain(corner, edge) >> 1, -4, 7);
 	}
 	int partner(const Refinement& r, Index edge, bool can) const
 	{
@@ -282,6 +380,10 @@ private:
 	std::vector<std::uint8_t> length_;              ///< #corners: lengthOf() the edge it faces
 	std::vector<Known> known_;                      ///< #corners
 	std::vector<std::uint8_t> splitsAt_, wholesAt_; ///< #V: known edges, at most 3
+
+	// Rich contexts only.
+	std::optional<SplitContexts> lengths_;
+	std::optional<ValenceForecast> forecast_;
 };
 
 } // namespace wavemesh
