@@ -51,6 +51,14 @@ void CodecOptions::addTo(CLI::App& command)
 	    ->group(group);
 	command
 	    .add_option(
+	        "--optimize", optimize,
+	        "What the choice of vertices to remove aims at: size, levels (the smallest error of "
+	        "coarse levels), or balanced (nearly that for about 2 % more bytes)")
+	    ->check(CLI::IsMember({"size", "balanced", "levels"}))
+	    ->capture_default_str()
+	    ->group(group);
+	command
+	    .add_option(
 	        "--wgc", wgc,
 	        "Wavelet geometrical criterion, keeps sharp edges in coarse levels: off, on, or auto "
 	        "(both are tried, the smaller file is kept)")
@@ -81,6 +89,9 @@ EncodeOptions CodecOptions::toEncodeOptions() const
 	o.bits         = bits;
 	o.step         = step;
 	o.lifting      = lifting == "off" ? kLiftingOff : lifting[0] - '0';
+	o.optimize     = optimize == "size"       ? Optimize::Size
+	                 : optimize == "balanced" ? Optimize::Balanced
+	                                          : Optimize::Levels;
 	o.wgc          = wgc == "off" ? Wgc::Off : wgc == "on" ? Wgc::On : Wgc::Auto;
 	o.wgcSharpness = sharpness;
 	o.wgcDeviation = deviation;
@@ -107,6 +118,19 @@ std::string nameOf(Mode mode)
 	return "unknown";
 }
 
+std::string nameOf(Optimize optimize)
+{
+	switch (optimize) {
+	case Optimize::Size:
+		return "size";
+	case Optimize::Balanced:
+		return "balanced";
+	case Optimize::Levels:
+		return "levels";
+	}
+	return "unknown";
+}
+
 std::string nameOfLifting(int lifting)
 {
 	return lifting == kLiftingOff ? "off" : std::to_string(lifting);
@@ -119,7 +143,8 @@ std::string nameOf(const EncodeOptions& o)
 	       ", lifting " + nameOfLifting(o.lifting) + ", wgc " +
 	       (o.wgc == Wgc::Off  ? "off"
 	        : o.wgc == Wgc::On ? "on"
-	                           : "auto");
+	                           : "auto") +
+	       ", optimize " + nameOf(o.optimize);
 }
 
 std::string messageOf(const std::string& path, const Status& status)

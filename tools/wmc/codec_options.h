@@ -16,13 +16,14 @@ namespace wavemesh::tool {
 /// Options of encode, report and bench, as typed.
 struct CodecOptions
 {
-	int bits            = 12;
-	double step         = 0;
-	std::string mode    = "classic";
-	std::string lifting = "0";
-	std::string wgc     = "auto";
-	double sharpness    = 0.3;
-	double deviation    = 0.25;
+	int bits             = 12;
+	double step          = 0;
+	std::string mode     = "classic";
+	std::string lifting  = "0";
+	std::string optimize = "size";
+	std::string wgc      = "auto";
+	double sharpness     = 0.3;
+	double deviation     = 0.25;
 
 	void addTo(CLI::App& command);
 	EncodeOptions toEncodeOptions() const;
@@ -30,6 +31,7 @@ struct CodecOptions
 
 std::string nameOf(LevelKind kind);
 std::string nameOf(Mode mode);
+std::string nameOf(Optimize optimize);
 std::string nameOfLifting(int lifting);           ///< off, 0, 1, 2
 std::string nameOf(const EncodeOptions& options); ///< one line for people
 

@@ -21,6 +21,9 @@ Status checkOptions(const EncodeOptions& o)
 {
 	if (o.mode != Mode::Classic)
 		return {StatusCode::InvalidArgument, "unknown mode"};
+	if (o.optimize != Optimize::Size && o.optimize != Optimize::Balanced &&
+	    o.optimize != Optimize::Levels)
+		return {StatusCode::InvalidArgument, "unknown aim to optimise for"};
 	if (o.lifting < kLiftingOff || o.lifting > 2)
 		return {StatusCode::InvalidArgument, "lifting must be off or the k of a k-disc, 0 to 2"};
 	if (!(o.wgcSharpness >= 0 && o.wgcSharpness <= 1))
@@ -51,6 +54,21 @@ private:
 	const Progress& progress_;
 	double from_, to_;
 };
+
+/// Which steps of the coarsening look at the error they make. Shares and steps from experiment, on
+/// meshes of all kinds: docs/algorithm.md, section 3.
+Steering steeringFor(Optimize optimize)
+{
+	switch (optimize) {
+	case Optimize::Balanced:
+		return {1, 0.9, 0.75};
+	case Optimize::Levels:
+		return {0, 0.8, 0.6};
+	case Optimize::Size:
+		break;
+	}
+	return {};
+}
 
 Status cancelled()
 {
@@ -135,10 +153,11 @@ encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, co
 	const GeometricalCriterion criterion {wgc, options.wgcSharpness, options.wgcDeviation};
 	bool running           = true;
 	const Stage coarsening = stage.part(0, 0.5);
-	auto coarsenings = coarsenAll(mesh.table, mesh.positions, criterion, [&](double fraction) {
-		running = coarsening(fraction);
-		return running;
-	});
+	auto coarsenings       = coarsenAll(
+	          mesh.table, mesh.positions, criterion, steeringFor(options.optimize), [&](double fraction) {
+            running = coarsening(fraction);
+            return running;
+        });
 	if (!running)
 		return cancelled();
 
@@ -248,6 +267,8 @@ Result<EncodedMesh> encodeMesh(const MeshData& mesh, const EncodeOptions& option
 	const QuantisedMesh quantised {std::move(*table), *lattice, quantise(mesh.positions, *lattice)};
 
 	const Stage whole(options.progress, 0, 1);
+	if (options.optimize == Optimize::Levels) // no step is left to the criterion
+		return encodeOnce(quantised, options, false, whole);
 	if (options.wgc != Wgc::Auto)
 		return encodeOnce(quantised, options, options.wgc == Wgc::On, whole);
 	auto blind = encodeOnce(quantised, options, false, whole.part(0, 0.5));

@@ -2,6 +2,7 @@
 #include "multires/coarsen.h"
 
 #include "multires/coarsen_state.h"
+#include "multires/removal_error.h"
 #include "multires/sharpness.h"
 
 #include <algorithm>
@@ -18,9 +19,11 @@ public:
 	Search(
 	    const CornerTable& fine,
 	    const std::vector<LatticePoint>& positions,
-	    const GeometricalCriterion& criterion) :
+	    const GeometricalCriterion& criterion,
+	    const ErrorCriterion& errorCriterion) :
 	        fine_(fine),
-	        state_(fine), sharpness_(fine, positions, criterion), faceSeen_(fine.faceCount(), 0)
+	        state_(fine), sharpness_(fine, positions, criterion),
+	        error_(state_, positions, errorCriterion), faceSeen_(fine.faceCount(), 0)
 	{
 	}
 
@@ -43,11 +46,20 @@ private:
 		int side;
 	};
 
-	bool add(const ChildOf* proposals, int count)
+	/// Do the criteria let these vertices go? Two at once complete a 4:1 merge.
+	bool allows(const ChildOf* proposals, int count) const
 	{
 		for (int i = 0; i < count; ++i)
-			if (!state_.isChild(proposals[i].child) && !sharpness_.allows(proposals[i]))
+			if (!state_.isChild(proposals[i].child) &&
+			    !(sharpness_.allows(proposals[i]) && error_.allows(proposals[i], count == 2)))
 				return false;
+		return true;
+	}
+
+	bool add(const ChildOf* proposals, int count)
+	{
+		if (!allows(proposals, count))
+			return false;
 		bool fresh[2] = {false, false};
 		for (int i = 0; i < count; ++i)
 			fresh[i] = !state_.isChild(proposals[i].child);
@@ -200,8 +212,14 @@ private:
 		return score;
 	}
 
-	/// Makes v a child of the pair of neighbours that leaves the best valences and the fewest
-	/// flips and parents.
+	/// What the error of a removal takes from its score: at the limit as much as bad valences do.
+	double errorScore(const ChildOf& p) const
+	{
+		return error_.active() ? 20 * error_.relative(p) : 0;
+	}
+
+	/// Makes v a child of the pair of neighbours that leaves the smallest error, the best valences
+	/// and the fewest flips and parents.
 	bool addBest(Index v)
 	{
 		if (state_.isChild(v) || state_.isParent(v))
@@ -211,7 +229,7 @@ private:
 			return false;
 		struct Option
 		{
-			int score;
+			double score;
 			Index a, b;
 		} options[15];
 		int count = 0;
@@ -224,7 +242,8 @@ private:
 				int score = (staysAnyway(s.ring[i]) ? 8 : 0) + (staysAnyway(s.ring[k]) ? 8 : 0);
 				for (int m = 0; m < n; ++m)
 					score += sideScore(side[m]);
-				options[count++] = {score, s.ring[i], s.ring[k]};
+				options[count++] = {
+				    score - errorScore({v, s.ring[i], s.ring[k]}), s.ring[i], s.ring[k]};
 			}
 		std::stable_sort(options, options + count, [](const Option& a, const Option& b) {
 			return a.score > b.score;
@@ -242,13 +261,16 @@ private:
 	{
 		if (addBest(v))
 			grow();
-		else if (!sharpness_.active() || !sharpness_.isSharp(v))
+		else if (
+		    (!sharpness_.active() || !sharpness_.isSharp(v)) && state_.valence(v) == 3 &&
+		    error_.allowsCentre(v))
 			state_.addCentre(v);
 	}
 
 	const CornerTable& fine_;
 	CoarsenState state_;
 	Sharpness sharpness_;
+	RemovalError error_;
 	std::vector<std::uint8_t> faceSeen_;
 	std::vector<Task> fresh_, sides_;
 	std::vector<Index> faces_; ///< corners
@@ -417,9 +439,10 @@ private:
 Coarsening coarsen(
     const CornerTable& fine,
     const std::vector<LatticePoint>& positions,
-    const GeometricalCriterion& criterion)
+    const GeometricalCriterion& criterion,
+    const ErrorCriterion& errorCriterion)
 {
-	Search search(fine, positions, criterion);
+	Search search(fine, positions, criterion, errorCriterion);
 	search.run();
 	return Emission(search.state()).run();
 }
