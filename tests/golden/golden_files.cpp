@@ -127,8 +127,8 @@ std::vector<Golden> badOnes()
 	text.erase(text.begin() + 4); // the carriage return
 	add("text_mode", text, StatusCode::Corrupt);
 	add("newer_major", mended(0, 0, 1), StatusCode::VersionTooNew);
-	add("bits_0", mended(0, 3, 0), StatusCode::Corrupt);
-	add("bits_25", mended(0, 3, 25), StatusCode::Corrupt);
+	add("bits_0", mended(0, 4, 0), StatusCode::Corrupt);
+	add("bits_25", mended(0, 4, 25), StatusCode::Corrupt);
 	add("unknown_mode", mended(0, 2, 7), StatusCode::Corrupt);
 	add("cut_in_magic", cutAt(file, 5), StatusCode::Truncated);
 	add("cut_in_head", cutAt(file, chunks[0].checksum - 1), StatusCode::Truncated);

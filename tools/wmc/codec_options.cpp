@@ -76,6 +76,11 @@ void CodecOptions::addTo(CLI::App& command)
 	    ->check(CLI::PositiveNumber)
 	    ->capture_default_str()
 	    ->group(group);
+	command
+	    .add_flag(
+	        "--exact", exact,
+	        "Keep every coordinate bit for bit: the finest level is float-lossless")
+	    ->group(group);
 }
 
 EncodeOptions CodecOptions::toEncodeOptions() const
@@ -89,18 +94,8 @@ EncodeOptions CodecOptions::toEncodeOptions() const
 	o.wgc          = wgc == "off" ? Wgc::Off : wgc == "on" ? Wgc::On : Wgc::Auto;
 	o.wgcSharpness = sharpness;
 	o.wgcDeviation = deviation;
+	o.exact        = exact;
 	return o;
-}
-
-std::string nameOf(LevelKind kind)
-{
-	switch (kind) {
-	case LevelKind::Base:
-		return "base";
-	case LevelKind::Split:
-		return "split";
-	}
-	return "unknown";
 }
 
 std::string nameOf(Mode mode)
@@ -124,7 +119,8 @@ std::string nameOf(const EncodeOptions& o)
 	       ", lifting " + nameOfLifting(o.lifting) + ", wgc " +
 	       (o.wgc == Wgc::Off  ? "off"
 	        : o.wgc == Wgc::On ? "on"
-	                           : "auto");
+	                           : "auto") +
+	       (o.exact ? ", exact" : "");
 }
 
 std::string messageOf(const std::string& path, const Status& status)

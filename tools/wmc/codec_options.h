@@ -5,6 +5,8 @@
 
 #include "file_io.h"
 
+#include <metrics/rate_distortion.h>
+
 #include <wavemesh/codec.h>
 
 #include <CLI/CLI.hpp>
@@ -24,12 +26,13 @@ struct CodecOptions
 	std::string wgc     = "auto";
 	double sharpness    = 0.3;
 	double deviation    = 0.25;
+	bool exact          = false;
 
 	void addTo(CLI::App& command);
 	EncodeOptions toEncodeOptions() const;
 };
 
-std::string nameOf(LevelKind kind);
+using metrics::nameOf; // of a LevelKind
 std::string nameOf(Mode mode);
 std::string nameOfLifting(int lifting);           ///< off, 0, 1, 2
 std::string nameOf(const EncodeOptions& options); ///< one line for people

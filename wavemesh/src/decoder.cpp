@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "container/container.h"
+#include "finish/finish.h"
 #include "multires/refine.h"
 #include "syntax/base_syntax.h"
 #include "syntax/connectivity_syntax.h"
@@ -9,6 +10,7 @@
 #include <wavemesh/codec.h>
 
 #include <new>
+#include <optional>
 
 namespace wavemesh {
 
@@ -22,7 +24,9 @@ struct Decoder::State
 	int level = -1;
 	CornerTable table;
 	std::vector<LatticePoint> positions;
-	Status stopped; ///< not ok: no further level can come
+	Glue glue;                        ///< of the base mesh
+	std::optional<MeshData> finished; ///< level J with what follows it, as far as it came
+	Status stopped;                   ///< not ok: no further level can come
 
 	std::size_t offset = 0; ///< of the next chunk
 	Chunk chunk;            ///< the one being read
@@ -37,9 +41,12 @@ struct Decoder::State
 
 	const LevelRow& row(int l) const { return head.rows[std::size_t(l)]; }
 
+	Status nextChunk(const std::string& what, std::uint8_t type);
 	Status openChunk();
+	Status openFeature(Feature feature);
 	Status readBase();
 	Status readSplit();
+	Status finish();
 	Status advance();
 	Status ended(const char* where) const;
 	Status corrupt(const char* what) const;
@@ -78,50 +85,58 @@ Status Decoder::State::corrupt(const char* what) const
 	    std::uint64_t(chunk.payload - data)};
 }
 
-/// Finds the next level chunk.
-Status Decoder::State::openChunk()
+/// Finds the next chunk that must not be skipped, which must be of this type.
+Status Decoder::State::nextChunk(const std::string& what, std::uint8_t type)
 {
 	for (;;) {
 		if (offset == size)
 			return {
 			    StatusCode::Truncated,
-			    "the file ends before " + levelName(level + 1) + " (" + std::to_string(size) +
-			        " of " + std::to_string(info.bytes) + " bytes)",
+			    "the file ends before " + what + " (" + std::to_string(size) + " of " +
+			        std::to_string(info.bytes) + " bytes)",
 			    size};
 		auto next = readChunk(data, size, offset);
 		if (!next.ok())
 			return next.status();
 		chunk = *next;
-		if (chunk.type == kLevelChunk) {
-			std::uint64_t expected = 0;
-			for (int l = level + 1; l == level + 1 || !row(l - 1).endsChunk; ++l)
-				expected += row(l).bytes;
-			if (chunk.declared != expected)
-				return {
-				    StatusCode::Corrupt,
-				    "the chunk at offset " + std::to_string(offset) +
-				        " is not as long as the head says",
-				    offset};
-			offset = chunk.end;
-			coder  = RangeDecoder(chunk.payload, chunk.size);
-			return {};
-		}
-		if (chunk.type < 'a' || chunk.type > 'z')
+		if (chunk.type != type && (chunk.type < 'a' || chunk.type > 'z'))
 			return {
-			    StatusCode::Corrupt, "an unknown chunk at offset " + std::to_string(offset),
+			    StatusCode::Corrupt,
+			    "the chunk at offset " + std::to_string(offset) + " is none that may come here",
 			    offset};
 		offset = chunk.end;
+		if (chunk.type == type)
+			return {};
 	}
+}
+
+/// Finds the next level chunk.
+Status Decoder::State::openChunk()
+{
+	const std::size_t before = offset;
+	if (Status s = nextChunk(levelName(level + 1), kLevelChunk); !s.ok())
+		return s;
+	std::uint64_t expected = 0;
+	for (int l = level + 1; l == level + 1 || !row(l - 1).endsChunk; ++l)
+		expected += row(l).bytes;
+	if (chunk.declared != expected)
+		return {
+		    StatusCode::Corrupt,
+		    "the chunk at offset " + std::to_string(before) + " is not as long as the head says",
+		    before};
+	coder = RangeDecoder(chunk.payload, chunk.size);
+	return {};
 }
 
 Status Decoder::State::readBase()
 {
-	auto base =
-	    BaseSyntax<RangeDecoder>(coder, head.lattice.bits).read(row(0).vertices, row(0).faces);
+	auto base = BaseSyntax<RangeDecoder>(coder, head.lattice.bits, head.has(kRestoration))
+	                .read(row(0).vertices, row(0).faces);
 	if (!base.ok())
 		return base.status().code == StatusCode::Truncated ? ended("the base mesh") : base.status();
 	table     = std::move(base->table);
 	positions = std::move(base->positions);
+	glue      = std::move(base->glue);
 	level     = 0;
 	return {};
 }
@@ -142,8 +157,9 @@ Status Decoder::State::readSplit()
 	if (child.faceCount() != target.faces)
 		return corrupt("does not have the number of faces that the head declares");
 
-	const Parents parents       = parentsOf(table, refinement);
-	const UpdateWeights weights = updateWeights(table, refinement, parents, head.lifting);
+	const Parents parents = parentsOf(table, refinement);
+	UpdateWeights weights = updateWeights(table, refinement, parents, head.lifting);
+	keepStill(glue, weights);
 	std::vector<LatticePoint> details(parents.size(), {0, 0, 0});
 	DetailSyntax<RangeDecoder>(coder, models->details, table, refinement, positions).code(details);
 	Status cut;
@@ -176,6 +192,46 @@ Status Decoder::State::advance()
 	return {};
 }
 
+/// What follows the finest level. What came whole is applied even if more is missing.
+Status Decoder::State::finish()
+{
+	if (digestOf(table, positions) != head.digest)
+		return {StatusCode::ChecksumMismatch, "the finest mesh does not match its digest"};
+	if (head.features == 0)
+		return {};
+	Finish stage(head, table, positions, glue);
+	Status status;
+	for (int f = 0; f < kFeatures && status.ok(); ++f)
+		if (head.has(Feature(f))) {
+			status = openFeature(Feature(f));
+			if (status.ok())
+				status = stage.apply(Feature(f), chunk.payload, chunk.size);
+		}
+	if (status.ok() || status.code == StatusCode::Truncated)
+		finished = stage.mesh();
+	return status;
+}
+
+/// Finds the chunk of a feature.
+Status Decoder::State::openFeature(Feature feature)
+{
+	if (Status s = nextChunk("what follows the levels", kFeatureChunk[feature]); !s.ok())
+		return s;
+	if (chunk.declared != head.featureBytes[feature])
+		return {
+		    StatusCode::Corrupt,
+		    "the chunk that ends at offset " + std::to_string(chunk.end) +
+		        " is not as long as the head says",
+		    chunk.end};
+	if (!chunk.whole)
+		return {
+		    StatusCode::Truncated,
+		    "the file ends inside what follows the levels (" + std::to_string(size) + " of " +
+		        std::to_string(info.bytes) + " bytes)",
+		    size};
+	return {};
+}
+
 Decoder::Decoder(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Decoder::Decoder(Decoder&&) noexcept            = default;
 Decoder& Decoder::operator=(Decoder&&) noexcept = default;
@@ -199,16 +255,19 @@ Decoder::open(const std::uint8_t* data, std::size_t size, const DecodeLimits& li
 	auto head       = readHead(data, size, end);
 	if (!head.ok())
 		return head.status();
-	state->data   = data;
-	state->size   = size;
-	state->head   = std::move(*head);
-	state->info   = describe(state->head, end);
-	state->offset = end;
-	if (state->info.vertices > limits.maxVertices || state->info.faces > limits.maxFaces)
+	state->data                  = data;
+	state->size                  = size;
+	state->head                  = std::move(*head);
+	state->info                  = describe(state->head, end);
+	state->offset                = end;
+	const LevelRow& finest       = state->head.rows.back();
+	const std::uint32_t vertices = std::max(state->info.vertices, finest.vertices);
+	const std::uint32_t faces    = std::max(state->info.faces, finest.faces);
+	if (vertices > limits.maxVertices || faces > limits.maxFaces)
 		return Status(
 		    StatusCode::LimitExceeded,
-		    "the file declares " + std::to_string(state->info.vertices) + " vertices and " +
-		        std::to_string(state->info.faces) + " faces, more than the limit of " +
+		    "the file declares " + std::to_string(vertices) + " vertices and " +
+		        std::to_string(faces) + " faces, more than the limit of " +
 		        std::to_string(limits.maxVertices) + " and " + std::to_string(limits.maxFaces));
 	return Decoder(std::move(state));
 }
@@ -219,9 +278,8 @@ Status Decoder::advance()
 	Status status;
 	try {
 		status = s.advance();
-		if (status.ok() && s.level == s.info.finestLevel() &&
-		    digestOf(s.table, s.positions) != s.head.digest)
-			status = {StatusCode::ChecksumMismatch, "the finest mesh does not match its digest"};
+		if (status.ok() && s.level == s.info.finestLevel())
+			status = s.finish();
 	}
 	catch (const std::bad_alloc&) {
 		status = {StatusCode::OutOfMemory, "not enough memory for " + levelName(s.level + 1)};
@@ -234,6 +292,8 @@ Status Decoder::advance()
 MeshData Decoder::mesh() const
 {
 	const State& s = *state_;
+	if (s.finished)
+		return *s.finished;
 	MeshData out;
 	out.positions.reserve(s.positions.size());
 	for (const LatticePoint& p : s.positions)
@@ -266,10 +326,10 @@ Result<DecodedMesh> decode(const std::uint8_t* data, std::size_t size, const Dec
 	const int target       = options.level < 0 ? finest : std::min(options.level, finest);
 	Status status;
 	while (decoder->level() < target && status.ok()) {
-		const double done =
-		    decoder->level() < 0
-		        ? 0
-		        : double(info.levels[std::size_t(decoder->level())].vertices) / info.vertices;
+		const double done = decoder->level() < 0
+		                        ? 0
+		                        : double(info.levels[std::size_t(decoder->level())].vertices) /
+		                              info.levels.back().vertices;
 		if (options.progress && !options.progress(done))
 			return Status(StatusCode::Cancelled, "cancelled");
 		status = decoder->advance();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "container/container.h"
+#include "finish/finish.h"
 #include "multires/hierarchy.h"
 #include "syntax/base_syntax.h"
 #include "syntax/connectivity_syntax.h"
@@ -61,9 +62,9 @@ Status cancelled()
 
 struct QuantisedMesh
 {
-	CornerTable table;
+	ManifoldCut cut;
 	Lattice lattice;
-	std::vector<LatticePoint> positions;
+	std::vector<LatticePoint> positions; ///< #V of the cut
 };
 
 /// Details of one level and what their synthesis needs.
@@ -130,24 +131,31 @@ private:
 	RangeEncoder::Mark connectivityEnd_;
 };
 
-Result<EncodedMesh>
-encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, const Stage& stage)
+Result<EncodedMesh> encodeOnce(
+    const MeshData& original,
+    const QuantisedMesh& mesh,
+    const EncodeOptions& options,
+    bool wgc,
+    const Stage& stage)
 {
 	// Coarsen, from the finest level down.
 	const GeometricalCriterion criterion {wgc, options.wgcSharpness, options.wgcDeviation};
 	bool running           = true;
 	const Stage coarsening = stage.part(0, 0.5);
-	auto coarsenings = coarsenAll(mesh.table, mesh.positions, criterion, [&](double fraction) {
-		running = coarsening(fraction);
-		return running;
-	});
+	auto coarsenings       = coarsenAll(
+	          mesh.cut.table, mesh.positions, criterion,
+	          [&](double fraction) {
+            running = coarsening(fraction);
+            return running;
+        },
+	          mesh.cut.shared());
 	if (!running)
 		return cancelled();
 
 	// Number everything as the decoder will.
 	BaseMesh base;
 	std::vector<Index> source;
-	base.table = coarsenings.empty() ? mesh.table : coarsenings.back().coarse;
+	base.table = coarsenings.empty() ? mesh.cut.table : coarsenings.back().coarse;
 	base.positions.resize(base.table.vertexCount);
 	{
 		RangeEncoder ignored; // the order of the base does not depend on its positions
@@ -160,14 +168,21 @@ encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, co
 		positions.push_back(mesh.positions[v]);
 
 	Head head;
-	head.lifting = options.lifting;
-	head.wgc     = wgc;
-	head.rich    = options.effort > 1;
-	head.lattice = mesh.lattice;
-	head.digest  = digestOf(levels.finest, positions);
+	head.lifting  = options.lifting;
+	head.wgc      = wgc;
+	head.rich     = options.effort > 1;
+	head.lattice  = mesh.lattice;
+	head.digest   = digestOf(levels.finest, positions);
+	head.features = featuresFor(options, mesh.cut);
+
+	const std::size_t splits       = levels.levels.size();
+	const bool glued               = head.has(kRestoration);
+	const std::vector<Index> group = mesh.cut.groupsOf(
+	    levels.source,
+	    splits == 0 ? levels.finest.vertexCount : levels.levels[0].parent.vertexCount);
+	const Glue glue = glueOf(group);
 
 	// Analyse, from the finest level down.
-	const std::size_t splits = levels.levels.size();
 	std::vector<AnalysedLevel> analysed(splits);
 	std::vector<std::uint64_t> squaredError(
 	    splits + 1, 0); // by level, of the details that it lacks
@@ -176,6 +191,7 @@ encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, co
 		AnalysedLevel& a           = analysed[i];
 		a.parents                  = parentsOf(level.parent, level.refinement);
 		a.weights = updateWeights(level.parent, level.refinement, a.parents, options.lifting);
+		keepStill(glue, a.weights);
 		a.details = analyse(a.parents, a.weights, positions);
 		positions.resize(level.parent.vertexCount);
 		squaredError[i] = squaredError[i + 1];
@@ -200,8 +216,8 @@ encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, co
 		return r;
 	};
 	{
-		BaseMesh b {splits == 0 ? levels.finest : levels.levels[0].parent, positions};
-		BaseSyntax<RangeEncoder>(writer.coder(), mesh.lattice.bits).write(b, source);
+		BaseMesh b {splits == 0 ? levels.finest : levels.levels[0].parent, positions, {}};
+		BaseSyntax<RangeEncoder>(writer.coder(), mesh.lattice.bits, glued).write(b, source, &group);
 		writer.endLevel(
 		    row(LevelKind::Base, 0, b.positions.size(), b.table.faceCount()), splits == 0);
 	}
@@ -225,6 +241,8 @@ encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, co
 			return cancelled();
 	}
 
+	writeFinish({original, mesh.cut, levels.finest, positions, levels.source, glue}, head, chunks);
+
 	EncodedMesh out;
 	writeHead(head, out.bytes);
 	out.info = describe(head, out.bytes.size());
@@ -236,27 +254,31 @@ Result<EncodedMesh> encodeMesh(const MeshData& mesh, const EncodeOptions& option
 {
 	if (Status s = checkOptions(options); !s.ok())
 		return s;
-	if (mesh.triangles.empty())
-		return Status(StatusCode::Unsupported, "the mesh has no faces");
-	if (mesh.positions.size() > std::numeric_limits<std::int32_t>::max() / 3 ||
-	    mesh.triangles.size() > std::numeric_limits<std::int32_t>::max() / 3)
+	constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max() / 3;
+	if (mesh.positions.size() > kMost || mesh.triangles.size() > kMost)
 		return Status(
 		    StatusCode::LimitExceeded, "the mesh has more than 715 million vertices or faces");
-	const auto lattice = makeLattice(mesh.positions, options.bits, options.step);
+	const auto& finite = options.exact ? finitePositions(mesh.positions) : mesh.positions;
+	const auto lattice = makeLattice(finite, options.bits, options.step);
 	if (!lattice.ok())
 		return lattice.status();
-	auto table = buildCornerTable(mesh.triangles, Index(mesh.positions.size()));
-	if (!table.ok())
-		return table.status();
-	const QuantisedMesh quantised {std::move(*table), *lattice, quantise(mesh.positions, *lattice)};
+	auto cut = cutToManifold(mesh.triangles, Index(mesh.positions.size()));
+	if (!cut.ok())
+		return cut.status();
+	QuantisedMesh quantised {std::move(*cut), *lattice, {}};
+	{
+		const auto points = quantise(finite, *lattice);
+		for (const Index v : quantised.cut.vertex)
+			quantised.positions.push_back(points[v]);
+	}
 
 	const Stage whole(options.progress, 0, 1);
 	if (options.wgc != Wgc::Auto)
-		return encodeOnce(quantised, options, options.wgc == Wgc::On, whole);
-	auto blind = encodeOnce(quantised, options, false, whole.part(0, 0.5));
+		return encodeOnce(mesh, quantised, options, options.wgc == Wgc::On, whole);
+	auto blind = encodeOnce(mesh, quantised, options, false, whole.part(0, 0.5));
 	if (!blind.ok())
 		return blind;
-	auto steered = encodeOnce(quantised, options, true, whole.part(0.5, 1));
+	auto steered = encodeOnce(mesh, quantised, options, true, whole.part(0.5, 1));
 	if (!steered.ok())
 		return steered;
 	return steered->bytes.size() < blind->bytes.size() ? steered : blind;

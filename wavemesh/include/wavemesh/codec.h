@@ -56,6 +56,11 @@ struct EncodeOptions
 	/// to that edge's length, is below this. > 0.
 	double wgcDeviation = 0.25;
 
+	/// The decoded mesh has the original's order of vertices and faces, and each face its first
+	/// corner.
+	bool keepOrder = false;
+	/// The decoded mesh has the bit pattern of every coordinate, not-a-numbers and infinities too.
+	bool exact = false;
 	/// What the file may cost to decode: 1 fast; 2 and 3 smaller, connectivity takes twice the time.
 	int effort = 2;
 
@@ -71,15 +76,37 @@ enum class LevelKind : std::uint8_t {
 struct LevelInfo
 {
 	LevelKind kind         = LevelKind::Base;
-	std::uint32_t vertices = 0;
+	std::uint32_t vertices = 0; ///< of the finest level: the original's
 	std::uint32_t faces    = 0;
-	std::uint64_t bytes = 0; ///< what this level adds to the file; the levels' sum is the file size
+	/// What this level adds to the file; the levels' sum is the file size. The finest one's include
+	/// what StreamFeatures lists.
+	std::uint64_t bytes = 0;
 	std::uint64_t prefix =
-	    0;        ///< length of the shortest prefix of the file that holds this level whole
-	int bits = 0; ///< precision of the positions, bits per coordinate
+	    0; ///< length of the shortest prefix of the file that holds this level whole
+	/// Of `bytes`, those spent on connectivity and on geometry; the rest is headers and checksums.
+	std::uint64_t connectivityBytes = 0;
+	std::uint64_t geometryBytes     = 0;
+	int bits                        = 0; ///< precision of the positions, bits per coordinate
 	/// Model units; an estimate from the details (docs/wmc_format.md), not a surface distance. 0
 	/// for the finest level.
 	double error = 0;
+};
+
+/// What the file keeps besides connectivity and lattice positions, and the bytes it takes. All of
+/// it follows the last level, and belongs to the finest mesh alone.
+struct StreamFeatures
+{
+	/// The original is no oriented manifold. Every level is one; the finest mesh is the original
+	/// once what follows the levels was read (before that, a manifold with some vertices several
+	/// times).
+	bool restored                  = false;
+	bool orderKept                 = false; ///< order-preserving: EncodeOptions::keepOrder
+	bool exact                     = false; ///< float-lossless: EncodeOptions::exact
+	bool attributes                = false;
+	std::uint64_t restorationBytes = 0;
+	std::uint64_t orderBytes       = 0;
+	std::uint64_t exactBytes       = 0;
+	std::uint64_t attributeBytes   = 0;
 };
 
 /// What the head of a file tells.
@@ -99,6 +126,7 @@ struct StreamInfo
 	/// Bytes of the file spent on connectivity and geometry; the rest is headers and checksums.
 	std::uint64_t connectivityBytes = 0;
 	std::uint64_t geometryBytes     = 0;
+	StreamFeatures features;
 	std::vector<LevelInfo> levels; ///< coarsest first
 
 	int finestLevel() const { return static_cast<int>(levels.size()) - 1; }
@@ -112,11 +140,12 @@ struct EncodedMesh
 
 /// Encodes `mesh`.
 ///
-/// @param mesh  oriented 2-manifold with or without boundary, any genus, any number of components,
-///              no isolated vertices, no degenerate or duplicate faces; never modified
-/// @return the file; InvalidArgument for options out of range, non-finite coordinates or indices
-///         out of range; Unsupported (naming the vertex or edge) for a mesh that is not as above;
-///         Cancelled. The same mesh and options give the same bytes everywhere.
+/// @param mesh  any triangles: non-manifold, inconsistently or not orientable, with isolated
+///              vertices, degenerate faces, several times the same face, or none at all; never
+///              modified
+/// @return the file; InvalidArgument for options out of range, indices out of range, and
+///         coordinates that are not finite unless options.exact is set, naming the vertex;
+///         LimitExceeded; Cancelled. The same mesh and options give the same bytes everywhere.
 /// Cost linear in the mesh.
 Result<EncodedMesh> encode(const MeshData& mesh, const EncodeOptions& options = {});
 
@@ -156,7 +185,8 @@ struct DecodedMesh
 /// @return the mesh; with status Truncated *and* a mesh if the data ends before the level asked
 ///         for but after the base mesh. Errors without a mesh: NotWmc, VersionTooNew, Truncated
 ///         (not even the base arrived), Corrupt, ChecksumMismatch, LimitExceeded, Cancelled.
-/// Vertices of a level keep their index in every finer level.
+/// Vertices of a level keep their index in every finer level, but for the finest if StreamFeatures
+/// says that it is restored or keeps the original's order.
 Result<DecodedMesh>
 decode(const std::uint8_t* data, std::size_t size, const DecodeOptions& options = {});
 

@@ -9,10 +9,11 @@
 namespace wavemesh {
 namespace {
 
-constexpr std::uint8_t kMagic[8]     = {0x8b, 'W', 'M', 'C', '\r', '\n', 0x1a, '\n'};
-constexpr std::size_t kChecksumSize  = 4;
-constexpr std::uint32_t kMaxLevels   = 4096;
-constexpr std::uint32_t kMaxElements = 0x7fffffff / 3; ///< corners are 32-bit indices
+constexpr std::uint8_t kMagic[8]         = {0x8b, 'W', 'M', 'C', '\r', '\n', 0x1a, '\n'};
+constexpr std::size_t kChecksumSize      = 4;
+constexpr std::uint32_t kMaxLevels       = 4096;
+constexpr std::uint32_t kMaxElements     = 0x7fffffff / 3;          ///< corners are 32-bit indices
+constexpr std::uint64_t kMaxFeatureBytes = std::uint64_t {1} << 48; ///< sums stay below 2^64
 
 Status corruptHead(const char* why)
 {
@@ -53,6 +54,7 @@ bool visitFields(Io& io, Head& h)
 		    (h.rich ? 128 : 0));
 	}
 	io.fixed(flags);
+	io.fixed(h.features);
 	std::uint8_t bits = std::uint8_t(h.lattice.bits);
 	io.fixed(bits);
 	if constexpr (Io::kReading) {
@@ -75,7 +77,17 @@ bool visitFields(Io& io, Head& h)
 			h.lattice.step = extent / double((std::uint32_t(1) << h.lattice.bits) - 1);
 	}
 	io.fixed(h.digest);
-	return true;
+	if (h.has(kRestoration)) {
+		io.varint(h.vertices);
+		io.varint(h.faces);
+	}
+	for (int f = 0; f < kFeatures; ++f)
+		if (h.has(Feature(f)))
+			io.varint(h.featureBytes[std::size_t(f)]);
+	for (const std::uint64_t bytes : h.featureBytes)
+		if (bytes > kMaxFeatureBytes)
+			return false;
+	return (h.features >> kFeatures) == 0;
 }
 
 /// The level table, finest first: each row next to the one it was coarsened to.
@@ -286,9 +298,34 @@ Result<Head> readHead(const std::uint8_t* data, std::size_t size, std::size_t& e
 		return corruptHead("the level table is cut");
 	if (Status s = checkRows(head.rows); !s.ok())
 		return s;
+	const LevelRow& finest = head.rows.back();
+	if (!head.has(kRestoration)) {
+		head.vertices = finest.vertices;
+		head.faces    = finest.faces;
+	}
+	else if (head.faces < finest.faces || head.vertices > kMaxElements || head.faces > kMaxElements)
+		return corruptHead("impossible counts of the original");
 	end = chunk->end;
 	return head;
 }
+
+namespace {
+
+StreamFeatures featuresOf(const Head& head)
+{
+	StreamFeatures out;
+	out.restored         = head.has(kRestoration);
+	out.orderKept        = head.has(kOrder);
+	out.exact            = head.has(kExact);
+	out.attributes       = head.has(kAttributes);
+	out.restorationBytes = head.featureBytes[kRestoration];
+	out.orderBytes       = head.featureBytes[kOrder];
+	out.exactBytes       = head.featureBytes[kExact];
+	out.attributeBytes   = head.featureBytes[kAttributes];
+	return out;
+}
+
+} // namespace
 
 StreamInfo describe(const Head& head, std::size_t headEnd)
 {
@@ -301,8 +338,9 @@ StreamInfo describe(const Head& head, std::size_t headEnd)
 	info.bits         = head.lattice.bits;
 	info.origin       = head.lattice.origin;
 	info.step         = head.lattice.step;
-	info.vertices     = head.rows.back().vertices;
-	info.faces        = head.rows.back().faces;
+	info.vertices     = head.vertices;
+	info.faces        = head.faces;
+	info.features     = featuresOf(head);
 
 	std::uint64_t begin = headEnd, previous = 0; // of the chunk; end of the level before
 	for (std::size_t i = 0, first = 0; i < head.rows.size(); ++i) {
@@ -316,14 +354,16 @@ StreamInfo describe(const Head& head, std::size_t headEnd)
 			const LevelRow& row = head.rows[k];
 			end += row.bytes;
 			LevelInfo level;
-			level.kind     = row.kind;
-			level.vertices = row.vertices;
-			level.faces    = row.faces;
-			level.prefix   = k == i ? begin + chunkSize(payload) : end;
-			level.bytes    = level.prefix - previous;
-			level.bits     = head.lattice.bits;
-			level.error    = head.lattice.step * errorFromCode(row.errorCode);
-			previous       = level.prefix;
+			level.kind              = row.kind;
+			level.vertices          = row.vertices;
+			level.faces             = row.faces;
+			level.prefix            = k == i ? begin + chunkSize(payload) : end;
+			level.bytes             = level.prefix - previous;
+			level.bits              = head.lattice.bits;
+			level.error             = head.lattice.step * errorFromCode(row.errorCode);
+			level.connectivityBytes = row.connectivityBytes;
+			level.geometryBytes     = row.bytes - row.connectivityBytes;
+			previous                = level.prefix;
 			info.connectivityBytes += row.connectivityBytes;
 			info.geometryBytes += row.bytes - row.connectivityBytes;
 			info.levels.push_back(level);
@@ -331,7 +371,14 @@ StreamInfo describe(const Head& head, std::size_t headEnd)
 		begin += chunkSize(payload);
 		first = i + 1;
 	}
-	info.bytes = begin;
+	for (int f = 0; f < kFeatures; ++f)
+		if (head.has(Feature(f)))
+			begin += chunkSize(head.featureBytes[std::size_t(f)]);
+	info.levels.back().vertices = head.vertices;
+	info.levels.back().faces    = head.faces;
+	info.levels.back().bytes += begin - previous;
+	info.levels.back().prefix = begin;
+	info.bytes                = begin;
 	return info;
 }
 

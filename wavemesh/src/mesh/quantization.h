@@ -30,6 +30,10 @@ struct Lattice
 Result<Lattice>
 makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, double step);
 
+/// `positions` with something finite, of the same magnitude as the rest, for what makeLattice()
+/// would refuse: to be made good by the exact values.
+std::vector<std::array<double, 3>> finitePositions(std::vector<std::array<double, 3>> positions);
+
 /// Nearest lattice points, ties away from zero. #V by 3, 0..2^bits - 1.
 std::vector<LatticePoint>
 quantise(const std::vector<std::array<double, 3>>& positions, const Lattice& lattice);

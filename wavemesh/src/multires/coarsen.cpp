@@ -18,10 +18,14 @@ public:
 	Search(
 	    const CornerTable& fine,
 	    const std::vector<LatticePoint>& positions,
-	    const GeometricalCriterion& criterion) :
+	    const GeometricalCriterion& criterion,
+	    const std::vector<std::uint8_t>& kept) :
 	        fine_(fine),
 	        state_(fine), sharpness_(fine, positions, criterion), faceSeen_(fine.faceCount(), 0)
 	{
+		for (Index v = 0; v < kept.size(); ++v)
+			if (kept[v])
+				state_.keep(v);
 	}
 
 	void run()
@@ -423,9 +427,10 @@ private:
 Coarsening coarsen(
     const CornerTable& fine,
     const std::vector<LatticePoint>& positions,
-    const GeometricalCriterion& criterion)
+    const GeometricalCriterion& criterion,
+    const std::vector<std::uint8_t>& kept)
 {
-	Search search(fine, positions, criterion);
+	Search search(fine, positions, criterion, kept);
 	search.run();
 	return Emission(search.state()).run();
 }

@@ -99,6 +99,8 @@ public:
 		return o == kNone ? kNone : fine_.vertex[o];
 	}
 
+	/// `v` never becomes a child; it counts as a parent from now on.
+	void keep(Index v) { ++vertex_[v].childCount; }
 	/// Makes one or two vertices children, all or none. Vertices that are one already, with the
 	/// same parents, are skipped.
 	bool add(const ChildOf* proposals, int count);

@@ -14,13 +14,13 @@ bool worthwhile(Index coarse, Index fine)
 	return coarse < fine && (fine <= kSmall || coarse <= fine - fine / 16);
 }
 
-std::vector<LatticePoint>
-pick(const std::vector<LatticePoint>& positions, const std::vector<Index>& rows)
+template <class Value>
+std::vector<Value> pick(const std::vector<Value>& values, const std::vector<Index>& rows)
 {
-	std::vector<LatticePoint> out;
+	std::vector<Value> out;
 	out.reserve(rows.size());
 	for (const Index row : rows)
-		out.push_back(positions[row]);
+		out.push_back(values[row]);
 	return out;
 }
 
@@ -89,19 +89,23 @@ std::vector<Coarsening> coarsenAll(
     const CornerTable& table,
     const std::vector<LatticePoint>& positions,
     const GeometricalCriterion& criterion,
-    const std::function<bool(double)>& step)
+    const std::function<bool(double)>& step,
+    const std::vector<std::uint8_t>& kept)
 {
 	std::vector<Coarsening> steps;
 	const CornerTable* fine          = &table;
 	std::vector<LatticePoint> points = positions;
+	std::vector<std::uint8_t> stay   = kept;
 	for (;;) {
-		Coarsening next = coarsen(*fine, points, criterion);
+		Coarsening next = coarsen(*fine, points, criterion, stay);
 		// Where nearly everything is sharp the criterion would stop the coarsening for good.
 		if (criterion.active && next.coarse.vertexCount > fine->vertexCount - fine->vertexCount / 4)
-			next = coarsen(*fine, points, {});
+			next = coarsen(*fine, points, {}, stay);
 		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount))
 			break;
 		points = pick(points, next.fineVertex);
+		if (!stay.empty())
+			stay = pick(stay, next.fineVertex);
 		steps.push_back(std::move(next));
 		fine = &steps.back().coarse;
 		if (!step(1 - double(fine->vertexCount) / double(table.vertexCount)))

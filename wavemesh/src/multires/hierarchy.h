@@ -11,6 +11,7 @@
 
 namespace wavemesh {
 
+/// @param kept  #V: 1 for vertices that stay in every level; empty if any may go
 /// @param step  called after each level with the fraction of vertices gone, 0..1; false stops
 /// @return the coarsenings, finest first; empty if nothing can be merged
 /// Linear: each level costs as much as it has faces, and has at most 15/16 of the vertices of the
@@ -19,7 +20,8 @@ std::vector<Coarsening> coarsenAll(
     const CornerTable& table,
     const std::vector<LatticePoint>& positions,
     const GeometricalCriterion& criterion,
-    const std::function<bool(double)>& step);
+    const std::function<bool(double)>& step,
+    const std::vector<std::uint8_t>& kept = {});
 
 struct ReplayedLevel
 {
