@@ -94,6 +94,8 @@ std::string nameOf(LevelKind kind)
 		return "base";
 	case LevelKind::Split:
 		return "split";
+	case LevelKind::Precise:
+		return "precise";
 	}
 	return "unknown";
 }

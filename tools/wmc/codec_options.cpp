@@ -38,26 +38,37 @@ void CodecOptions::addTo(CLI::App& command)
 	    ->check(CLI::PositiveNumber)
 	    ->excludes(bitsOption)
 	    ->group(group);
-	command.add_option("--mode", mode, "Coding mode: classic is the method of the paper")
-	    ->check(CLI::IsMember({"classic"}))
+	auto* modeOption =
+	    command
+	        .add_option(
+	            "--mode", mode,
+	            "Coding mode: compact makes positions more precise as the mesh gets denser, and the "
+	            "file smaller; classic is the method of the paper")
+	        ->check(CLI::IsMember({"compact", "classic"}))
+	        ->capture_default_str()
+	        ->group(group);
+	command
+	    .add_option(
+	        "--effort", effort,
+	        "1 is the fastest, to encode and to decode; 3 tries several ways and keeps the "
+	        "smallest file")
+	    ->check(CLI::Range(1, 3))
 	    ->capture_default_str()
 	    ->group(group);
 	command
 	    .add_option(
 	        "--lifting", lifting,
-	        "Update step of the wavelet: off (lazy filter bank), or the k of its k-disc support")
+	        "Classic: update step of the wavelet: off (lazy filter bank), or the k of its k-disc "
+	        "support")
 	    ->check(CLI::IsMember({"off", "0", "1", "2"}))
-	    ->capture_default_str()
-	    ->group(group);
-	command.add_option("--effort", effort, "1 decodes fast; 2 and 3 make smaller files")
-	    ->check(CLI::Range(1, 3))
+	    ->needs(modeOption)
 	    ->capture_default_str()
 	    ->group(group);
 	command
 	    .add_option(
 	        "--wgc", wgc,
 	        "Wavelet geometrical criterion, keeps sharp edges in coarse levels: off, on, or auto "
-	        "(both are tried, the smaller file is kept)")
+	        "(both are tried and the smaller file is kept; compact: with --effort 3 only, else off)")
 	    ->check(CLI::IsMember({"off", "on", "auto"}))
 	    ->capture_default_str()
 	    ->group(group);
@@ -86,7 +97,7 @@ void CodecOptions::addTo(CLI::App& command)
 EncodeOptions CodecOptions::toEncodeOptions() const
 {
 	EncodeOptions o;
-	o.mode         = Mode::Classic;
+	o.mode         = mode == "classic" ? Mode::Classic : Mode::Compact;
 	o.bits         = bits;
 	o.step         = step;
 	o.effort       = effort;
@@ -103,6 +114,8 @@ std::string nameOf(Mode mode)
 	switch (mode) {
 	case Mode::Classic:
 		return "classic";
+	case Mode::Compact:
+		return "compact";
 	}
 	return "unknown";
 }
@@ -116,7 +129,9 @@ std::string nameOf(const EncodeOptions& o)
 {
 	return nameOf(o.mode) + ", " +
 	       (o.step > 0 ? "step " + significant(o.step, 6) : std::to_string(o.bits) + " bits") +
-	       ", lifting " + nameOfLifting(o.lifting) + ", wgc " +
+	       (o.mode == Mode::Classic ? ", lifting " + nameOfLifting(o.lifting)
+	                                : ", effort " + std::to_string(o.effort)) +
+	       ", wgc " +
 	       (o.wgc == Wgc::Off  ? "off"
 	        : o.wgc == Wgc::On ? "on"
 	                           : "auto") +

@@ -20,9 +20,9 @@ struct CodecOptions
 {
 	int bits            = 12;
 	double step         = 0;
-	std::string mode    = "classic";
-	std::string lifting = "0";
+	std::string mode    = "compact";
 	int effort          = 2;
+	std::string lifting = "0";
 	std::string wgc     = "auto";
 	double sharpness    = 0.3;
 	double deviation    = 0.25;

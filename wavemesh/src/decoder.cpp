@@ -5,6 +5,7 @@
 #include "syntax/base_syntax.h"
 #include "syntax/connectivity_syntax.h"
 #include "syntax/detail_syntax.h"
+#include "syntax/position_syntax.h"
 #include "wavelet/lifting.h"
 
 #include <wavemesh/codec.h>
@@ -23,21 +24,18 @@ struct Decoder::State
 
 	int level = -1;
 	CornerTable table;
-	std::vector<LatticePoint> positions;
-	Glue glue;                        ///< of the base mesh
-	std::optional<MeshData> finished; ///< level J with what follows it, as far as it came
-	Status stopped;                   ///< not ok: no further level can come
+	std::vector<LatticePoint> positions; ///< cells of the level's precision
+	Glue glue;                           ///< of the base mesh
+	std::optional<MeshData> finished;    ///< level J with what follows it, as far as it came
+	Status stopped;                      ///< not ok: no further level can come
 
 	std::size_t offset = 0; ///< of the next chunk
 	Chunk chunk;            ///< the one being read
 	RangeDecoder coder;
-	struct Models
-	{
-		explicit Models(Contexts contexts) : connectivity(contexts) {}
-		ConnectivityModels connectivity;
-		DetailModels details;
-	};
-	std::unique_ptr<Models> models; ///< megabytes: made for the first split, when there is one
+	// Megabytes: made for the first refinement that needs them.
+	std::unique_ptr<ConnectivityModels> connectivityModels;
+	std::unique_ptr<DetailModels> detailModels;
+	std::unique_ptr<CompactModels> compactModels;
 
 	const LevelRow& row(int l) const { return head.rows[std::size_t(l)]; }
 
@@ -46,6 +44,9 @@ struct Decoder::State
 	Status openFeature(Feature feature);
 	Status readBase();
 	Status readSplit();
+	Status readDetails(const Refinement& refinement);
+	Status readChildren(const Refinement& refinement, const CornerTable& child);
+	Status readPrecise();
 	Status finish();
 	Status advance();
 	Status ended(const char* where) const;
@@ -130,8 +131,9 @@ Status Decoder::State::openChunk()
 
 Status Decoder::State::readBase()
 {
-	auto base = BaseSyntax<RangeDecoder>(coder, head.lattice.bits, head.has(kRestoration))
-	                .read(row(0).vertices, row(0).faces);
+	auto base =
+	    BaseSyntax<RangeDecoder>(coder, head.lattice.bits - row(0).shift, head.has(kRestoration))
+	        .read(row(0).vertices, row(0).faces);
 	if (!base.ok())
 		return base.status().code == StatusCode::Truncated ? ended("the base mesh") : base.status();
 	table     = std::move(base->table);
@@ -145,10 +147,10 @@ Status Decoder::State::readSplit()
 {
 	const LevelRow& target = row(level + 1);
 	Refinement refinement;
-	if (!models)
-		models = std::make_unique<Models>(head.rich ? Contexts::Rich : Contexts::Fast);
-	ConnectivitySyntax<RangeDecoder>(coder, models->connectivity, table, positions)
-	    .code(refinement);
+	if (!connectivityModels)
+		connectivityModels = std::make_unique<ConnectivityModels>(
+		    head.rich ? Contexts::Rich : Contexts::Fast);
+	ConnectivitySyntax<RangeDecoder>(coder, *connectivityModels, table, positions).code(refinement);
 	if (coder.exhausted())
 		return ended("the connectivity");
 	if (refinement.childVertices != target.vertices)
@@ -156,21 +158,54 @@ Status Decoder::State::readSplit()
 	CornerTable child = refine(table, refinement);
 	if (child.faceCount() != target.faces)
 		return corrupt("does not have the number of faces that the head declares");
+	const Status status =
+	    head.mode == Mode::Classic ? readDetails(refinement) : readChildren(refinement, child);
+	if (status.ok() || status.code == StatusCode::Truncated) {
+		table = std::move(child);
+		++level;
+	}
+	return status;
+}
 
+/// Classic: details, and the filter bank.
+Status Decoder::State::readDetails(const Refinement& refinement)
+{
 	const Parents parents = parentsOf(table, refinement);
 	UpdateWeights weights = updateWeights(table, refinement, parents, head.lifting);
 	keepStill(glue, weights);
 	std::vector<LatticePoint> details(parents.size(), {0, 0, 0});
-	DetailSyntax<RangeDecoder>(coder, models->details, table, refinement, positions).code(details);
-	Status cut;
-	if (coder.exhausted()) {
-		cut = ended("the details");
-		if (cut.code != StatusCode::Truncated)
-			return cut;
-	}
-	synthesise(parents, weights, details, positions);
-	table = std::move(child);
-	++level;
+	if (!detailModels)
+		detailModels = std::make_unique<DetailModels>();
+	DetailSyntax<RangeDecoder>(coder, *detailModels, table, refinement, positions).code(details);
+	const Status cut = coder.exhausted() ? ended("the details") : Status();
+	if (cut.ok() || cut.code == StatusCode::Truncated)
+		synthesise(parents, weights, details, positions);
+	return cut;
+}
+
+/// Compact: the cells of the new vertices.
+Status Decoder::State::readChildren(const Refinement& refinement, const CornerTable& child)
+{
+	const Parents parents = parentsOf(table, refinement);
+	if (!compactModels)
+		compactModels = std::make_unique<CompactModels>();
+	positions.resize(child.vertexCount, {0, 0, 0});
+	PositionSyntax<RangeDecoder>(coder, *compactModels, child, head.lattice.bits, glue)
+	    .codeChildren(table, refinement, parents, row(level + 1).shift, positions);
+	return coder.exhausted() ? ended("the positions") : Status();
+}
+
+/// Compact: more bits for every vertex.
+Status Decoder::State::readPrecise()
+{
+	if (!compactModels)
+		compactModels = std::make_unique<CompactModels>();
+	const int shift = row(level + 1).shift;
+	PositionSyntax<RangeDecoder>(coder, *compactModels, table, head.lattice.bits, glue)
+	    .codeBits(shift, row(level).shift - shift, positions, {});
+	const Status cut = coder.exhausted() ? ended("the positions") : Status();
+	if (cut.ok() || cut.code == StatusCode::Truncated)
+		++level;
 	return cut;
 }
 
@@ -183,7 +218,8 @@ Status Decoder::State::advance()
 	if (level < 0 || row(level).endsChunk)
 		if (Status s = openChunk(); !s.ok())
 			return s;
-	if (Status s = level < 0 ? readBase() : readSplit(); !s.ok())
+	const bool splits = level >= 0 && row(level + 1).kind == LevelKind::Split;
+	if (Status s = level < 0 ? readBase() : splits ? readSplit() : readPrecise(); !s.ok())
 		return s;
 	if (row(level).endsChunk && !chunk.whole)
 		return {
@@ -295,9 +331,14 @@ MeshData Decoder::mesh() const
 	if (s.finished)
 		return *s.finished;
 	MeshData out;
+	const int shift = s.row(s.level).shift;
 	out.positions.reserve(s.positions.size());
-	for (const LatticePoint& p : s.positions)
-		out.positions.push_back(s.head.lattice.position(p));
+	if (shift == 0)
+		for (const LatticePoint& p : s.positions)
+			out.positions.push_back(s.head.lattice.position(p));
+	else
+		for (const LatticePoint& p : likelyPositions(s.table, s.positions, shift, s.glue))
+			out.positions.push_back(s.head.lattice.positionOfSixteenths(p));
 	out.triangles.resize(s.table.faceCount());
 	for (std::size_t f = 0; f < out.triangles.size(); ++f)
 		for (std::size_t k = 0; k < 3; ++k)

@@ -24,13 +24,14 @@ using Progress = std::function<bool(double fraction)>;
 
 enum class Mode : std::uint8_t {
 	Classic = 0, ///< the paper: every refinement is a split at full precision
+	Compact = 1, ///< smaller: positions get more precise as the mesh gets denser
 };
 
 /// Wavelet geometrical criterion of the paper, sec. III: may a sharp vertex be removed?
 enum class Wgc : std::uint8_t {
 	Off  = 0, ///< geometry-blind coarsening
 	On   = 1,
-	Auto = 2, ///< both are encoded and the smaller file is kept
+	Auto = 2, ///< both are encoded and the smaller file is kept; Compact: only with effort 3, else Off
 };
 
 /// Lifting is off: the lazy filter bank, configuration I of the paper.
@@ -38,7 +39,11 @@ constexpr int kLiftingOff = -1;
 
 struct EncodeOptions
 {
-	Mode mode = Mode::Classic;
+	Mode mode = Mode::Compact;
+	/// What encoding and decoding may cost, 1..3. 1 is the fastest: the contexts of connectivity
+	/// are fewer, and a compact file becomes a classic one without lifting. 2 chooses a schedule by
+	/// a look at the mesh, 3 encodes with several and keeps the smallest.
+	int effort = 2;
 
 	/// Bits per coordinate over the largest extent of the bounding box, 1..24 (2^bits - 1 steps).
 	int bits = 12;
@@ -46,7 +51,7 @@ struct EncodeOptions
 	/// be below 2^24 steps.
 	double step = 0;
 
-	/// kLiftingOff, or the k of the k-disc support of the update, 0..2 (paper sec. V.B).
+	/// Classic: kLiftingOff, or the k of the k-disc support of the update, 0..2 (paper sec. V.B).
 	int lifting = 0;
 
 	Wgc wgc = Wgc::Auto;
@@ -61,15 +66,14 @@ struct EncodeOptions
 	bool keepOrder = false;
 	/// The decoded mesh has the bit pattern of every coordinate, not-a-numbers and infinities too.
 	bool exact = false;
-	/// What the file may cost to decode: 1 fast; 2 and 3 smaller, connectivity takes twice the time.
-	int effort = 2;
 
 	Progress progress;
 };
 
 enum class LevelKind : std::uint8_t {
 	Base  = 0, ///< the coarsest mesh
-	Split = 1, ///< one subdivision step
+	Split   = 1, ///< one subdivision step
+	Precise = 2, ///< more bits for every position; the same vertices and faces
 };
 
 /// One row of the level table in the file's head.

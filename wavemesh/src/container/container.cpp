@@ -64,7 +64,8 @@ bool visitFields(Io& io, Head& h)
 		h.lifting      = ((flags >> 5) & 3) - 1;
 		h.rich         = (flags & 128) != 0;
 		h.lattice.bits = bits;
-		if (bits < 1 || bits > kMaxBits || h.mode != Mode::Classic)
+		if (bits < 1 || bits > kMaxBits || h.mode > Mode::Compact ||
+		    (h.mode == Mode::Compact && h.lifting != kLiftingOff))
 			return false;
 	}
 	for (double& x : h.lattice.origin)
@@ -92,12 +93,13 @@ bool visitFields(Io& io, Head& h)
 
 /// The level table, finest first: each row next to the one it was coarsened to.
 template <class Coder>
-void codeRows(Coder& coder, std::vector<LevelRow>& rows)
+void codeRows(Coder& coder, Mode mode, std::vector<LevelRow>& rows)
 {
 	AdaptiveUnsigned<32> vertices, faces, bytes, connectivity;
 	AdaptiveSigned<32> removed;
 	AdaptiveSigned<9> error;
-	AdaptiveBit endsChunk;
+	AdaptiveUnsigned<5> sharper;
+	AdaptiveBit endsChunk, precise;
 	for (std::size_t i = rows.size(); i-- > 0 && !coder.exhausted();) {
 		LevelRow& row = rows[i];
 		if (i + 1 == rows.size()) {
@@ -106,25 +108,38 @@ void codeRows(Coder& coder, std::vector<LevelRow>& rows)
 		}
 		else {
 			const LevelRow& finer = rows[i + 1];
-			row.vertices =
-			    finer.vertices - std::uint32_t(vertices.code(coder, finer.vertices - row.vertices));
-			// A vertex less is two faces less, away from the boundary.
-			const std::int64_t regular =
-			    std::int64_t(finer.faces) - 2 * std::int64_t(finer.vertices - row.vertices);
-			row.faces = std::uint32_t(regular + removed.code(coder, row.faces - regular));
+			if (finer.kind == LevelKind::Precise) {
+				row.vertices = finer.vertices;
+				row.faces    = finer.faces;
+				row.shift    = finer.shift + 1 +
+				            int(sharper.code(coder, std::uint64_t(row.shift - finer.shift - 1)));
+			}
+			else {
+				row.vertices = finer.vertices -
+				               std::uint32_t(vertices.code(coder, finer.vertices - row.vertices));
+				// A vertex less is two faces less, away from the boundary.
+				const std::int64_t regular =
+				    std::int64_t(finer.faces) - 2 * std::int64_t(finer.vertices - row.vertices);
+				row.faces = std::uint32_t(regular + removed.code(coder, row.faces - regular));
+				row.shift = finer.shift;
+			}
 			row.errorCode =
 			    std::uint8_t(finer.errorCode + error.code(coder, row.errorCode - finer.errorCode));
 		}
 		row.bytes             = std::uint32_t(bytes.code(coder, row.bytes));
 		row.connectivityBytes = std::uint32_t(connectivity.code(coder, row.connectivityBytes));
 		row.endsChunk         = codeBit(coder, endsChunk, row.endsChunk, 60);
-		row.kind              = i == 0 ? LevelKind::Base : LevelKind::Split;
+		const bool isPrecise  = mode == Mode::Compact && i > 0 &&
+		                       codeBit(coder, precise, row.kind == LevelKind::Precise, 60);
+		row.kind = i == 0 ? LevelKind::Base : isPrecise ? LevelKind::Precise : LevelKind::Split;
 	}
 }
 
-/// What a split can do at most.
-Status checkRows(const std::vector<LevelRow>& rows)
+/// What a refinement can do at most.
+Status checkRows(const std::vector<LevelRow>& rows, int bits)
 {
+	if (rows[0].shift >= bits)
+		return corruptHead("the base mesh has no precision");
 	if (!rows.back().endsChunk)
 		return corruptHead("the last level is open");
 	for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -243,7 +258,7 @@ void writeHead(const Head& head, std::vector<std::uint8_t>& file)
 	visitFields(out, copy);
 	out.varint(copy.rows.size());
 	RangeEncoder coder;
-	codeRows(coder, copy.rows);
+	codeRows(coder, copy.mode, copy.rows);
 	const auto table = coder.finish();
 	out.bytes.insert(out.bytes.end(), table.begin(), table.end());
 	writeChunk(kHeadChunk, out.bytes, file);
@@ -293,10 +308,10 @@ Result<Head> readHead(const std::uint8_t* data, std::size_t size, std::size_t& e
 		return corruptHead("impossible fields");
 	head.rows.resize(count);
 	RangeDecoder coder(chunk->payload + in.position(), chunk->size - in.position());
-	codeRows(coder, head.rows);
+	codeRows(coder, head.mode, head.rows);
 	if (coder.exhausted())
 		return corruptHead("the level table is cut");
-	if (Status s = checkRows(head.rows); !s.ok())
+	if (Status s = checkRows(head.rows, head.lattice.bits); !s.ok())
 		return s;
 	const LevelRow& finest = head.rows.back();
 	if (!head.has(kRestoration)) {

@@ -36,7 +36,8 @@ struct LevelRow
 	std::uint32_t bytes             = 0; ///< of the chunk's payload
 	std::uint32_t connectivityBytes = 0; ///< of these
 	std::uint8_t errorCode          = 0; ///< see errorFromCode()
-	bool endsChunk                  = false;
+	int shift = 0; ///< positions are known to cells 2^shift lattice units wide; 0 in classic files
+	bool endsChunk = false;
 };
 
 struct Head

@@ -41,6 +41,13 @@ inline int log2Quarters(std::uint64_t x)
 	return 4 * (length - 1) + static_cast<int>(top & 3);
 }
 
+/// a + b, or the largest number.
+inline std::uint64_t saturatingAdd(std::uint64_t a, std::uint64_t b)
+{
+	const std::uint64_t sum = a + b;
+	return sum < a ? ~std::uint64_t {0} : sum;
+}
+
 /// Squared distance; coordinates may be anything: 34-bit differences are clamped to 31 bits.
 inline std::uint64_t squaredDistance(const LatticePoint& a, const LatticePoint& b)
 {

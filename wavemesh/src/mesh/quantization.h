@@ -21,6 +21,13 @@ struct Lattice
 	{
 		return {origin[0] + step * p[0], origin[1] + step * p[1], origin[2] + step * p[2]};
 	}
+	/// The same for a point in sixteenths of lattice units.
+	std::array<double, 3> positionOfSixteenths(const LatticePoint& p) const
+	{
+		return {
+		    origin[0] + step * (p[0] / 16.0), origin[1] + step * (p[1] / 16.0),
+		    origin[2] + step * (p[2] / 16.0)};
+	}
 };
 
 /// Lattice over the bounding box of `positions`: `step` model units a step if step > 0, else
