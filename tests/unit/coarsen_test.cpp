@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inverse irregular subdivision, one step and all of them.
 #include "mesh_check.h"
+#include "multires/quadrics.h"
 #include "multires/refine.h"
 #include "stage_meshes.h"
 
@@ -12,15 +13,6 @@
 
 namespace wavemesh::test {
 namespace {
-
-std::vector<LatticePoint>
-pickedPositions(const std::vector<LatticePoint>& fine, const std::vector<Index>& rows)
-{
-	std::vector<LatticePoint> out;
-	for (const Index v : rows)
-		out.push_back(fine[v]);
-	return out;
-}
 
 /// Every fine vertex is kept, or is the child of one coarse edge, or the centre of one coarse face.
 std::string whatIsNotAccountedFor(const Coarsening& c, Index fineVertices)
@@ -65,15 +57,19 @@ std::string whatRefineDoesNotUndo(const Coarsening& step, const CornerTable& fin
 }
 
 /// Coarsens to the end; empty if every step keeps what a step must keep.
-std::string whatAStepBreaks(const MeshData& mesh, const GeometricalCriterion& criterion)
+/// @param share  ErrorCriterion::share; 0: not active
+std::string
+whatAStepBreaks(const MeshData& mesh, const GeometricalCriterion& criterion, double share = 0)
 {
 	Topology expected;
 	if (std::string s = whatIsNotManifold(mesh, &expected); !s.empty())
 		return s;
 	StageMesh level = stageMesh(mesh);
+	Quadrics quadrics(level.table, level.positions);
 	for (int depth = 0;; ++depth) {
 		const std::string where = "step " + std::to_string(depth) + ": ";
-		const Coarsening step   = coarsen(level.table, level.positions, criterion);
+		const Coarsening step   = coarsen(
+		      level.table, level.positions, criterion, {share > 0 ? &quadrics : nullptr, share});
 		Topology found;
 		if (std::string s = whatIsNotManifold(meshOf(step.coarse, {}), &found); !s.empty())
 			return where + s;
@@ -90,6 +86,7 @@ std::string whatAStepBreaks(const MeshData& mesh, const GeometricalCriterion& cr
 			return sortedFaces(facesOf(step.coarse)) == sortedFaces(facesOf(level.table))
 			           ? ""
 			           : where + "nothing was merged, but the faces are others";
+		quadrics.carry(step, level.positions);
 		level.positions = pickedPositions(level.positions, step.fineVertex);
 		level.table     = step.coarse;
 	}
@@ -110,16 +107,25 @@ TEST_P(CoarsenFamily, EveryStepUnderTheGeometricalCriterion_IsManifoldAndRefineU
 	EXPECT_EQ(whatAStepBreaks(GetParam().mesh, {true, 0.05, 0.02}), "");
 }
 
+TEST_P(CoarsenFamily, EveryStepByItsError_IsManifoldAndRefineUndoesIt)
+{
+	EXPECT_EQ(whatAStepBreaks(GetParam().mesh, {}, 0.5), "");
+	EXPECT_EQ(whatAStepBreaks(GetParam().mesh, {}, 0.9), "");
+}
+
 TEST_P(CoarsenFamily, ClosedGenus0_EndsAtTenVerticesOrFewer)
 {
 	Topology t;
 	ASSERT_EQ(whatIsNotManifold(GetParam().mesh, &t), "");
 	if (t.boundaryLoops != 0 || t.genus != 0)
 		return;
-	const Levels levels = makeLevels(GetParam().mesh);
-	const CornerTable& base =
-	    levels.replay.levels.empty() ? levels.replay.finest : levels.replay.levels.front().parent;
-	EXPECT_LE(base.vertexCount, 10 * t.components);
+	for (const Steering& steering :
+	     {Steering {}, Steering {1, 0.65, 0.5}, Steering {0, 0.4, 0.4}}) {
+		const Levels levels = makeLevels(GetParam().mesh, {}, 12, steering);
+		const CornerTable& base =
+		    levels.replay.levels.empty() ? levels.replay.finest : levels.replay.levels[0].parent;
+		EXPECT_LE(base.vertexCount, 10 * t.components) << steering.freeSteps;
+	}
 }
 
 TEST_P(CoarsenFamily, ReplayFromTheBase_EndsWithTheOriginal)
@@ -307,7 +313,7 @@ TEST(CoarsenAll, StopsWhenAsked)
 	const StageMesh fine = stageMesh(makeIcosphere(15));
 	int calls            = 0;
 	const auto steps =
-	    coarsenAll(fine.table, fine.positions, {}, [&](double) { return ++calls < 2; });
+	    coarsenAll(fine.table, fine.positions, {}, {}, [&](double) { return ++calls < 2; });
 	EXPECT_EQ(calls, 2);
 	EXPECT_EQ(steps.size(), 2u);
 }

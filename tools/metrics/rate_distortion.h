@@ -20,7 +20,7 @@ struct Configuration
 };
 
 /// The configurations that a report compares, in order: the paper's I (lazy), II (lifting) and III
-/// (lifting and WGC). A further mode of the codec is one more entry here.
+/// (lifting and WGC), and the compact mode.
 /// @param base  all other options; its lifting gives the k of II and III (0 if it is off)
 std::vector<Configuration> comparedConfigurations(const EncodeOptions& base);
 

@@ -66,6 +66,14 @@ void CodecOptions::addTo(CLI::App& command)
 	    ->group(group);
 	command
 	    .add_option(
+	        "--optimize", optimize,
+	        "What the choice of vertices to remove aims at: size, levels (the smallest error of "
+	        "coarse levels), or balanced (nearly that for about 2 % more bytes)")
+	    ->check(CLI::IsMember({"size", "balanced", "levels"}))
+	    ->capture_default_str()
+	    ->group(group);
+	command
+	    .add_option(
 	        "--wgc", wgc,
 	        "Wavelet geometrical criterion, keeps sharp edges in coarse levels: off, on, or auto "
 	        "(both are tried and the smaller file is kept; compact: with --effort 3 only, else off)")
@@ -102,6 +110,9 @@ EncodeOptions CodecOptions::toEncodeOptions() const
 	o.step         = step;
 	o.effort       = effort;
 	o.lifting      = lifting == "off" ? kLiftingOff : lifting[0] - '0';
+	o.optimize     = optimize == "size"       ? Optimize::Size
+	                 : optimize == "balanced" ? Optimize::Balanced
+	                                          : Optimize::Levels;
 	o.wgc          = wgc == "off" ? Wgc::Off : wgc == "on" ? Wgc::On : Wgc::Auto;
 	o.wgcSharpness = sharpness;
 	o.wgcDeviation = deviation;
@@ -116,6 +127,19 @@ std::string nameOf(Mode mode)
 		return "classic";
 	case Mode::Compact:
 		return "compact";
+	}
+	return "unknown";
+}
+
+std::string nameOf(Optimize optimize)
+{
+	switch (optimize) {
+	case Optimize::Size:
+		return "size";
+	case Optimize::Balanced:
+		return "balanced";
+	case Optimize::Levels:
+		return "levels";
 	}
 	return "unknown";
 }
@@ -135,7 +159,7 @@ std::string nameOf(const EncodeOptions& o)
 	       (o.wgc == Wgc::Off  ? "off"
 	        : o.wgc == Wgc::On ? "on"
 	                           : "auto") +
-	       (o.exact ? ", exact" : "");
+	       ", optimize " + nameOf(o.optimize) + (o.exact ? ", exact" : "");
 }
 
 std::string messageOf(const std::string& path, const Status& status)

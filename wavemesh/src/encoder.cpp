@@ -16,6 +16,8 @@ Status checkOptions(const EncodeOptions& o)
 {
 	if (o.mode > Mode::Compact)
 		return {StatusCode::InvalidArgument, "unknown mode"};
+	if (o.optimize > Optimize::Levels)
+		return {StatusCode::InvalidArgument, "unknown aim to optimise for"};
 	if (o.effort < 1 || o.effort > 3)
 		return {StatusCode::InvalidArgument, "effort must be 1, 2 or 3"};
 	if (o.lifting < kLiftingOff || o.lifting > 2)
@@ -24,6 +26,21 @@ Status checkOptions(const EncodeOptions& o)
 		return {StatusCode::InvalidArgument, "the sharpness threshold must be 0 to 1"};
 	if (!(o.wgcDeviation > 0 && o.wgcDeviation <= 1e6))
 		return {StatusCode::InvalidArgument, "the deviation threshold must be positive"};
+	return {};
+}
+
+/// Which steps of the coarsening look at the error they make. Shares and steps from experiment, on
+/// meshes of all kinds: docs/algorithm.md, section 3.
+Steering steeringFor(Optimize optimize)
+{
+	switch (optimize) {
+	case Optimize::Balanced:
+		return {1, 0.9, 0.75};
+	case Optimize::Levels:
+		return {0, 0.8, 0.6};
+	case Optimize::Size:
+		break;
+	}
 	return {};
 }
 
@@ -60,8 +77,9 @@ public:
 	Result<EncodedMesh> run()
 	{
 		const bool classic = options_.mode == Mode::Classic || options_.effort == 1;
-		const bool both =
-		    options_.wgc == Wgc::Auto && (options_.mode == Mode::Classic || options_.effort == 3);
+		// With Levels no step is left to the geometrical criterion.
+		const bool both = options_.wgc == Wgc::Auto && options_.optimize != Optimize::Levels &&
+		                  (options_.mode == Mode::Classic || options_.effort == 3);
 		const Stage whole(options_.progress, 0, 1);
 		for (const bool wgc : {false, true}) {
 			if (!both && wgc != (options_.wgc == Wgc::On))
@@ -69,7 +87,8 @@ public:
 			const Stage stage = both ? whole.part(wgc ? 0.5 : 0, wgc ? 1 : 0.5) : whole;
 			const GeometricalCriterion criterion {
 			    wgc, options_.wgcSharpness, options_.wgcDeviation};
-			std::optional<Levels> levels = makeLevels(mesh_, criterion, stage.part(0, 0.4));
+			std::optional<Levels> levels = makeLevels(
+			    mesh_, criterion, steeringFor(options_.optimize), stage.part(0, 0.4));
 			if (!levels)
 				return cancelled();
 			if (!(classic ? tryClassic(*levels, wgc, stage.part(0.4, 1))

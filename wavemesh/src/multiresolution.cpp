@@ -119,7 +119,7 @@ Result<Replay> levelsOf(const MeshData& mesh, const MultiresolutionOptions& opti
 	    options.wgc != Wgc::Off, options.wgcSharpness, options.wgcDeviation};
 	bool running = true;
 	auto coarsenings =
-	    coarsenAll(*table, quantise(mesh.positions, *lattice), criterion, [&](double fraction) {
+	    coarsenAll(*table, quantise(mesh.positions, *lattice), criterion, {}, [&](double fraction) {
 		    running = !options.progress || options.progress(0.8 * fraction);
 		    return running;
 	    });

@@ -34,6 +34,15 @@ enum class Wgc : std::uint8_t {
 	Auto = 2, ///< both are encoded and the smaller file is kept; Compact: only with effort 3, else Off
 };
 
+/// What the choice of the vertices that each step removes is good for. Sizes and errors of all
+/// three: README.
+enum class Optimize : std::uint8_t {
+	Size     = 0, ///< the smallest file: connectivity decides, with wgc as the paper has it
+	Balanced = 1, ///< coarse levels close to the original, for about 2 % more bytes: the finest
+	              ///< step as with Size, the others remove what makes the smallest errors
+	Levels = 2,   ///< the smallest error at any low rate: all steps so; wgc does not matter
+};
+
 /// Lifting is off: the lazy filter bank, configuration I of the paper.
 constexpr int kLiftingOff = -1;
 
@@ -53,6 +62,8 @@ struct EncodeOptions
 
 	/// Classic: kLiftingOff, or the k of the k-disc support of the update, 0..2 (paper sec. V.B).
 	int lifting = 0;
+
+	Optimize optimize = Optimize::Balanced;
 
 	Wgc wgc = Wgc::Auto;
 	/// A vertex is sharp if an incident dihedral has |n1 x n2| above this. 0..1.

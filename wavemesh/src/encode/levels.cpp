@@ -7,12 +7,16 @@
 namespace wavemesh {
 
 std::optional<Levels>
-makeLevels(const QuantisedMesh& mesh, const GeometricalCriterion& criterion, const Stage& stage)
+makeLevels(
+    const QuantisedMesh& mesh,
+    const GeometricalCriterion& criterion,
+    const Steering& steering,
+    const Stage& stage)
 {
 	bool running         = true;
 	const auto keepGoing = [&](double fraction) { return running = stage(fraction); };
 	auto coarsenings =
-	    coarsenAll(mesh.cut.table, mesh.positions, criterion, keepGoing, mesh.cut.shared());
+	    coarsenAll(mesh.cut.table, mesh.positions, criterion, steering, keepGoing, mesh.cut.shared());
 	if (!running)
 		return {};
 

@@ -38,6 +38,10 @@ struct Levels
 
 /// @return nothing if the user cancelled. Linear.
 std::optional<Levels>
-makeLevels(const QuantisedMesh& mesh, const GeometricalCriterion& criterion, const Stage& stage);
+makeLevels(
+    const QuantisedMesh& mesh,
+    const GeometricalCriterion& criterion,
+    const Steering& steering,
+    const Stage& stage);
 
 } // namespace wavemesh

@@ -2,6 +2,7 @@
 #include "multires/coarsen.h"
 
 #include "multires/coarsen_state.h"
+#include "multires/removal_error.h"
 #include "multires/sharpness.h"
 
 #include <algorithm>
@@ -19,9 +20,11 @@ public:
 	    const CornerTable& fine,
 	    const std::vector<LatticePoint>& positions,
 	    const GeometricalCriterion& criterion,
-	    const std::vector<std::uint8_t>& kept) :
+	    const std::vector<std::uint8_t>& kept,
+	    const ErrorCriterion& errorCriterion) :
 	        fine_(fine),
-	        state_(fine), sharpness_(fine, positions, criterion), faceSeen_(fine.faceCount(), 0)
+	        state_(fine), sharpness_(fine, positions, criterion),
+	        error_(state_, positions, errorCriterion), faceSeen_(fine.faceCount(), 0)
 	{
 		for (Index v = 0; v < kept.size(); ++v)
 			if (kept[v])
@@ -55,11 +58,20 @@ private:
 		int side;
 	};
 
-	bool add(const ChildOf* proposals, int count)
+	/// Do the criteria let these vertices go? Two at once complete a 4:1 merge.
+	bool allows(const ChildOf* proposals, int count) const
 	{
 		for (int i = 0; i < count; ++i)
-			if (!state_.isChild(proposals[i].child) && !sharpness_.allows(proposals[i]))
+			if (!state_.isChild(proposals[i].child) &&
+			    !(sharpness_.allows(proposals[i]) && error_.allows(proposals[i], count == 2)))
 				return false;
+		return true;
+	}
+
+	bool add(const ChildOf* proposals, int count)
+	{
+		if (!allows(proposals, count))
+			return false;
 		bool fresh[2] = {false, false};
 		for (int i = 0; i < count; ++i)
 			fresh[i] = !state_.isChild(proposals[i].child);
@@ -211,8 +223,14 @@ private:
 		return score;
 	}
 
-	/// Makes v a child of the pair of neighbours that leaves the best valences and the fewest
-	/// flips and parents.
+	/// What the error of a removal takes from its score: at the limit as much as bad valences do.
+	double errorScore(const ChildOf& p) const
+	{
+		return error_.active() ? 20 * error_.relative(p) : 0;
+	}
+
+	/// Makes v a child of the pair of neighbours that leaves the smallest error, the best valences
+	/// and the fewest flips and parents.
 	bool addBest(Index v)
 	{
 		if (state_.isChild(v) || state_.isParent(v))
@@ -222,7 +240,7 @@ private:
 			return false;
 		struct Option
 		{
-			int score;
+			double score;
 			Index a, b;
 		} options[5];
 		int count = 0;
@@ -233,11 +251,12 @@ private:
 				int score = (staysAnyway(s.ring[i]) ? 8 : 0) + (staysAnyway(s.ring[k]) ? 8 : 0);
 				for (int m = 0; m < CoarsenState::sideCount(s); ++m)
 					score += sideScore(CoarsenState::side(s, i, k, m));
+				const double total = score - errorScore({v, s.ring[i], s.ring[k]});
 				// The best first, and of equals the one found first.
 				int at = count++;
-				for (; at > 0 && options[at - 1].score < score; --at)
+				for (; at > 0 && options[at - 1].score < total; --at)
 					options[at] = options[at - 1];
-				options[at] = {score, s.ring[i], s.ring[k]};
+				options[at] = {total, s.ring[i], s.ring[k]};
 			}
 		for (int i = 0; i < count; ++i) {
 			const ChildOf p {v, options[i].a, options[i].b};
@@ -252,13 +271,16 @@ private:
 	{
 		if (addBest(v))
 			grow();
-		else if (!sharpness_.active() || !sharpness_.isSharp(v))
+		else if (
+		    (!sharpness_.active() || !sharpness_.isSharp(v)) && state_.valence(v) == 3 &&
+		    error_.allowsCentre(v))
 			state_.addCentre(v);
 	}
 
 	const CornerTable& fine_;
 	CoarsenState state_;
 	Sharpness sharpness_;
+	RemovalError error_;
 	std::vector<std::uint8_t> faceSeen_;
 	std::vector<Task> fresh_, sides_;
 	std::vector<Index> faces_; ///< corners
@@ -428,9 +450,10 @@ Coarsening coarsen(
     const CornerTable& fine,
     const std::vector<LatticePoint>& positions,
     const GeometricalCriterion& criterion,
-    const std::vector<std::uint8_t>& kept)
+    const std::vector<std::uint8_t>& kept,
+    const ErrorCriterion& errorCriterion)
 {
-	Search search(fine, positions, criterion, kept);
+	Search search(fine, positions, criterion, kept, errorCriterion);
 	search.run();
 	return Emission(search.state()).run();
 }
