@@ -2,6 +2,7 @@
 #include "filter_wavemesh.h"
 
 #include "filter_card.h"
+#include "layer_report.h"
 #include "level_list.h"
 #include "simplify_target.h"
 
@@ -10,8 +11,10 @@
 
 #include <wavemesh/vcg_wmc.h>
 
+#include <QApplication>
 #include <QFileInfo>
 #include <QGuiApplication>
+#include <QLabel>
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +29,14 @@ EncodeOptions browsingOptions()
 	EncodeOptions options;
 	options.bits = 16;
 	options.wgc  = Wgc::On;
+	return options;
+}
+
+/// As precise as files usually are.
+EncodeOptions reportOptions()
+{
+	EncodeOptions options;
+	options.wgc = Wgc::Auto;
 	return options;
 }
 
@@ -92,7 +103,7 @@ struct Shown
 
 FilterWavemeshPlugin::FilterWavemeshPlugin()
 {
-	typeList = {FP_SIMPLIFY, FP_BROWSE, FP_LAYERS};
+	typeList = {FP_SIMPLIFY, FP_BROWSE, FP_LAYERS, FP_REPORT, FP_COLOUR, FP_EQUALISE};
 	for (ActionIDType filter : types())
 		actionList.push_back(new QAction(filterName(filter), this));
 }
@@ -154,16 +165,26 @@ FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshDocumen
 		addEncodeParameters(list, browsingOptions(), true);
 		break;
 	case FP_BROWSE: {
-		const auto [finest, shown] = levelRange(layer);
-		list.addParam(RichDynamicFloat(
-		    "level", Scalarm(shown), 0, Scalarm(std::max(finest, 1)),
-		    QString("Level (0 coarsest, %1 finest)").arg(finest),
-		    "0 is the base mesh, the coarsest; the largest value is the finest level, which is the "
-		    "layer as it was. In scripts -1 is the finest, too. Tick <i>Preview</i> and drag."));
+		const LevelRange range = levelRange(layer);
+		addSliderParameters(list, range);
+		card_ = levelCard(range, range.shown);
 		break;
 	}
 	case FP_LAYERS:
 		addLevelListParameters(list);
+		break;
+	case FP_REPORT: {
+		const LayerStream* stream = findStream(layer.cm);
+		addReportParameters(
+		    list, reportOptions(),
+		    stream != nullptr && stream->fingerprint == fingerprint(layer.cm));
+		break;
+	}
+	case FP_COLOUR:
+		addDetailParameters(list);
+		break;
+	case FP_EQUALISE:
+		addEqualiserParameters(list, finestDetailLevel(layer));
 		break;
 	default:
 		break;
@@ -192,6 +213,15 @@ std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
 		case FP_LAYERS:
 			postConditionMask = MeshModel::MM_NONE;
 			return makeLayers(document, parameters);
+		case FP_REPORT:
+			postConditionMask = MeshModel::MM_NONE;
+			return report(layer, parameters, cb);
+		case FP_COLOUR:
+			postConditionMask = MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR;
+			return colourByDetail(
+			    layer, hierarchy_.of(layer, hierarchyOptions(parameters)), parameters);
+		case FP_EQUALISE:
+			return equalise(layer, parameters, postConditionMask);
 		default:
 			wrongActionCalled(action);
 			return {};
@@ -237,8 +267,7 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::browse(
 {
 	// No progress bar: it would let the slider's next event in while this one is being served.
 	const auto levels = levelsOf(layer);
-	const int asked   = integerOf(parameters, "level", kFinestLevel);
-	const int level   = asked < 0 ? levels->finest() : std::min(asked, levels->finest());
+	const int level   = chosenLevel(parameters, levels->info(), levels->finest());
 	if (level == levels->shown())
 		postConditionMask = MeshModel::MM_NONE; // nothing to draw anew
 	levels->show(layer, level);
@@ -248,9 +277,38 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::browse(
 	    level == info.finestLevel() && exact
 	        ? plainLabel(layer.label())
 	        : levelLabel(layer.label(), level, info.finestLevel()));
+	showCard(levelCard({info, levels->finest(), level}, level));
 	const Shown shown {layer, info, level, levels->stream()->size()};
 	log(shown.sentence());
 	return shown.results();
+}
+
+FilterWavemeshPlugin::Results FilterWavemeshPlugin::report(
+    MeshModel& layer, const RichParameterList& parameters, vcg::CallBackPos* cb)
+{
+	const auto levels = LayerLevels::find(layer);
+	const LayerReport report(layer, levels.get(), parameters, reportOptions(), cb);
+	for (const QString& line : report.table())
+		log(line.toStdString());
+	for (const QString& file : report.writeFiles())
+		log(("Written: " + file).toStdString());
+	return report.results();
+}
+
+FilterWavemeshPlugin::Results FilterWavemeshPlugin::equalise(
+    MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask)
+{
+	// No progress bar, as when browsing: the sliders are alive.
+	const Multiresolution& levels = hierarchy_.of(layer, hierarchyOptions(parameters));
+	const Results results         = equaliseDetail(layer, levels, parameters);
+	postConditionMask =
+	    MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL;
+	log(QString("Moved %1 of %2 vertices, by up to %3.")
+	        .arg(results.at("moved").toInt())
+	        .arg(layer.cm.vn)
+	        .arg(results.at("largest_move").toDouble(), 0, 'g', 3)
+	        .toStdString());
+	return results;
 }
 
 FilterWavemeshPlugin::Results
@@ -300,7 +358,7 @@ SharedBytes FilterWavemeshPlugin::encodeForBrowsing(const MeshModel& layer)
 	return encoded_.stream;
 }
 
-std::pair<int, int> FilterWavemeshPlugin::levelRange(const MeshModel& layer)
+LevelRange FilterWavemeshPlugin::levelRange(const MeshModel& layer)
 {
 	const WaitCursor waiting;
 	try {
@@ -311,13 +369,36 @@ std::pair<int, int> FilterWavemeshPlugin::levelRange(const MeshModel& layer)
 		if (info.ok()) {
 			const int whole = wholeLevels(*info, stream->size()) - 1;
 			const int shown = valid ? kept->level : whole;
-			return {std::max(whole, shown), shown};
+			return {*info, std::max(whole, shown), shown};
 		}
 	}
 	catch (const std::exception&) {
 		// The filter itself will say what is wrong; a dialog has no way to.
 	}
-	return {0, 0};
+	return {};
+}
+
+int FilterWavemeshPlugin::finestDetailLevel(const MeshModel& layer)
+{
+	const WaitCursor waiting;
+	try {
+		return hierarchy_.of(layer, {}).finestLevel();
+	}
+	catch (const std::exception&) {
+		return 0; // as above
+	}
+}
+
+void FilterWavemeshPlugin::showCard(const QString& card)
+{
+	if (qobject_cast<QApplication*>(QCoreApplication::instance()) == nullptr || card == card_)
+		return;
+	// MeshLab's dialogs offer no text that changes: the label is found by what it says.
+	for (QWidget* widget : QApplication::allWidgets())
+		if (auto* label = qobject_cast<QLabel*>(widget))
+			if (!card_.isEmpty() && label->text() == card_)
+				label->setText(card);
+	card_ = card;
 }
 
 MESHLAB_PLUGIN_NAME_EXPORTER(FilterWavemeshPlugin)

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "detail_filters.h"
 #include "layer_levels.h"
+#include "level_slider.h"
 
 #include <common/plugins/interfaces/filter_plugin.h>
 
-/// Simplification and level browsing on the codec. Translates between MeshLab and LayerLevels.
+/// Simplification, levels, reports and details on the codec. Translates between MeshLab and the
+/// libraries.
 class FilterWavemeshPlugin : public QObject, public FilterPlugin
 {
 	Q_OBJECT
@@ -13,7 +16,7 @@ class FilterWavemeshPlugin : public QObject, public FilterPlugin
 	Q_INTERFACES(FilterPlugin)
 
 public:
-	enum Filters { FP_SIMPLIFY, FP_BROWSE, FP_LAYERS };
+	enum Filters { FP_SIMPLIFY, FP_BROWSE, FP_LAYERS, FP_REPORT, FP_COLOUR, FP_EQUALISE };
 
 	FilterWavemeshPlugin();
 
@@ -45,13 +48,21 @@ private:
 	Results
 	browse(MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask);
 	Results makeLayers(MeshDocument& document, const RichParameterList& parameters);
+	Results report(MeshModel& layer, const RichParameterList& parameters, vcg::CallBackPos* cb);
+	Results equalise(
+	    MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask);
 
 	/// The levels of the layer: those it has, or those of a new encoding of its mesh.
 	std::shared_ptr<wavemesh::LayerLevels> levelsOf(MeshModel& layer);
 	/// @throws MLException if the mesh cannot be encoded
 	wavemesh::SharedBytes encodeForBrowsing(const MeshModel& layer);
-	/// The finest level that Browse Levels can offer, and the one shown. Never throws.
-	std::pair<int, int> levelRange(const MeshModel& layer);
+	/// What Browse Levels can offer. Never throws.
+	wavemesh::LevelRange levelRange(const MeshModel& layer);
+	/// Levels of the hierarchy for details, 0 if there is none. Never throws.
+	int finestDetailLevel(const MeshModel& layer);
+	/// Shows `card` where the dialog of Browse Levels, if there is one, shows that of another
+	/// level.
+	void showCard(const QString& card);
 
 	/// The last mesh that was encoded for browsing. The dialog has to know the number of levels
 	/// before the filter runs, when the layer may not be touched yet.
@@ -61,4 +72,6 @@ private:
 		wavemesh::SharedBytes stream;
 	};
 	Encoded encoded_;
+	wavemesh::HierarchyCache hierarchy_;
+	QString card_; ///< what the dialog of Browse Levels shows
 };

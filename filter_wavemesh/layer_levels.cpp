@@ -3,6 +3,8 @@
 
 #include <shared/plugin_support.h>
 
+#include <wavemesh/vcg_wmc.h>
+
 #include <algorithm>
 
 namespace wavemesh {
@@ -23,6 +25,7 @@ LayerLevels::LayerLevels(SharedBytes stream, Decoder decoder) :
         stream_(std::move(stream)), decoder_(std::move(decoder))
 {
 	finest_ = info().finestLevel();
+	away_.resize(info().levels.size());
 	if (stream_->size() >= info().bytes)
 		return;
 	// A cut file: the last level may be there in part, and only the decoder knows.
@@ -86,32 +89,41 @@ void LayerLevels::show(MeshModel& layer, int level)
 	if (level == shown_)
 		return;
 	const std::shared_ptr<LayerLevels> self = levelsOn(layer.cm);
-	const bool back                         = level == finest_ && away_.mesh;
+	Away& wanted                            = away_[std::size_t(level)];
 	// What can fail comes before the layer is touched.
-	std::unique_ptr<CMeshO> mesh = back ? std::move(away_.mesh) : makeMesh(decoded(level));
+	if (!wanted.mesh)
+		wanted = {makeMesh(decoded(level)), MeshModel::MM_NONE};
 
 	detach(layer); // the levels must not go away with a mesh that they keep
-	const int mask = layer.dataMask();
-	auto old       = exchangeMesh(layer, std::move(mesh), back ? away_.dataMask : 0);
-	if (shown_ == finest_)
-		away_ = {std::move(old), mask};
-	shown_ = level;
+	const int mask             = layer.dataMask();
+	auto old                   = exchangeMesh(layer, std::move(wanted.mesh), wanted.dataMask);
+	away_[std::size_t(shown_)] = {std::move(old), mask};
+	shown_                     = level;
 	keepOn(layer, self);
 }
 
 void LayerLevels::copyTo(MeshModel& other, const MeshModel& layer, int level)
 {
-	other.cm.Tr = layer.cm.Tr;
-	if (level != finest_ || (!away_.mesh && shown_ != finest_))
+	other.cm.Tr      = layer.cm.Tr;
+	const Away& away = away_[std::size_t(finest_)];
+	if (level != finest_ || (!away.mesh && shown_ != finest_))
 		exchangeMesh(other, makeMesh(decoded(level)));
 	else {
-		const CMeshO& mesh = away_.mesh ? *away_.mesh : layer.cm;
-		const int mask     = away_.mesh ? away_.dataMask : layer.dataMask();
+		const CMeshO& mesh = away.mesh ? *away.mesh : layer.cm;
+		const int mask     = away.mesh ? away.dataMask : layer.dataMask();
 		exchangeMesh(other, std::make_unique<CMeshO>(mesh), mask);
 		for (const std::string& name : mesh.textures)
 			other.addTexture(name, layer.getTexture(name));
 	}
 	keepStream(other.cm, {stream_, level, fingerprint(other.cm)});
+}
+
+MeshData LayerLevels::finestMesh(const MeshModel& layer)
+{
+	if (shown_ == finest_)
+		return toMeshData(layer.cm);
+	const Away& away = away_[std::size_t(finest_)];
+	return away.mesh ? toMeshData(*away.mesh) : decoded(finest_);
 }
 
 } // namespace wavemesh

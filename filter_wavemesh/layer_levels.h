@@ -13,12 +13,12 @@
 namespace wavemesh {
 
 /// The levels of one layer: a decoder that goes only as far as was asked, every level it passed,
-/// and the finest mesh itself while a coarser level is shown.
+/// and every mesh that the layer has shown, while it shows another. All of them together hold less
+/// than twice what the finest does.
 ///
 /// Kept on the layer between the calls, so that it lives and dies with it.
-/// Invariant: whoever comes back to the finest level gets the mesh that was taken from the layer
-/// there, with its colours and all else, or, where there was none (a file opened at a coarse
-/// level), the decoded one.
+/// Invariant: whoever comes back to a level gets the mesh that was taken from the layer there, with
+/// its colours and all else, or, where there was none, the decoded one.
 class LayerLevels
 {
 public:
@@ -40,12 +40,16 @@ public:
 	int shown() const { return shown_; }
 
 	/// Shows a level, 0..finest(). Cost: decoding, once, the levels up to it that were not asked
-	/// for before; then linear in the level.
+	/// for before, and making a mesh of each that is shown; then next to nothing.
 	void show(MeshModel& layer, int level);
 
 	/// Puts a level on another layer: an exact copy of the finest mesh, or what is decoded.
 	/// @param layer  the one these levels belong to
 	void copyTo(MeshModel& other, const MeshModel& layer, int level);
+
+	/// The finest level as the codec takes it: what the layer had, or what is decoded.
+	/// @param layer  the one these levels belong to
+	MeshData finestMesh(const MeshModel& layer);
 
 	const SharedBytes& stream() const { return stream_; }
 
@@ -54,8 +58,8 @@ private:
 	const MeshData& decoded(int level);
 	void keepOn(MeshModel& layer, std::shared_ptr<LayerLevels> self) const;
 
-	/// The finest mesh while it is away from the layer.
-	struct Finest
+	/// A mesh while it is away from the layer.
+	struct Away
 	{
 		std::unique_ptr<CMeshO> mesh;
 		int dataMask = 0;
@@ -64,7 +68,7 @@ private:
 	SharedBytes stream_; ///< what decoder_ reads
 	Decoder decoder_;
 	std::vector<MeshData> passed_; ///< by level, as far as decoder_ went
-	Finest away_;
+	std::vector<Away> away_;       ///< by level; empty where the layer has not been
 	int finest_ = 0;
 	int shown_  = 0;
 };

@@ -3,6 +3,7 @@
 
 #include "file_bytes.h"
 #include "shared/encode_parameters.h"
+#include "shared/encode_presets.h"
 #include "shared/layer_stream.h"
 #include "shared/plugin_support.h"
 
@@ -11,6 +12,7 @@
 #include <QFileInfo>
 
 #include <limits>
+#include <optional>
 
 using namespace wavemesh;
 
@@ -57,6 +59,25 @@ void fillLayer(MeshModel& layer, const MeshData& mesh, int level, SharedBytes st
 {
 	exchangeMesh(layer, makeMesh(mesh));
 	keepStream(layer.cm, {std::move(stream), level, fingerprint(layer.cm)});
+}
+
+/// Encodes in each of the ways; the smallest file, or the first failure.
+Result<EncodedMesh> encodeSmallest(
+    const MeshData& mesh, const std::vector<EncodeOptions>& ways, const Progress& progress)
+{
+	std::optional<EncodedMesh> best;
+	const double share = 1.0 / double(ways.size());
+	for (std::size_t i = 0; i < ways.size(); ++i) {
+		EncodeOptions options = ways[i];
+		if (progress)
+			options.progress = [&](double part) { return progress(share * (double(i) + part)); };
+		auto encoded = encode(mesh, options);
+		if (!encoded.ok())
+			return encoded.status();
+		if (!best || encoded->bytes.size() < best->bytes.size())
+			best = std::move(*encoded);
+	}
+	return std::move(*best);
 }
 
 /// "18 432 bytes" and the like.
@@ -148,6 +169,11 @@ void IOWavemeshPlugin::open(
 			require(decoder->advance(), "Cannot open " + fileName);
 			fillLayer(*layer, decoder->mesh(), decoder->level(), bytes);
 			layer->setLabel(levelLabel(QFileInfo(fileName).fileName(), decoder->level(), finest));
+			// A project remembers a layer's file and not its level: a coarse level that bore the
+			// name of the whole file would come back as something else, or overwrite it when saved.
+			layer->setIdInFile(-1);
+			if (decoder->level() < finest)
+				layer->setFileName(QString());
 			masks.push_back(0);
 			if (progress)
 				progress(double(masks.size()) / double(layers.size()));
@@ -233,6 +259,7 @@ IOWavemeshPlugin::initSaveParameter(const QString& format, const MeshModel& laye
 			defaults.lifting = info->lifting;
 		}
 	}
+	list.addParam(RichEnum("preset", int(Preset::Custom), presetNames(), "Preset", presetHelp()));
 	addEncodeParameters(list, defaults);
 	return list;
 }
@@ -248,11 +275,15 @@ void IOWavemeshPlugin::save(
 	guarded([&] {
 		if (format.toUpper() != kExtension)
 			wrongSaveFormat(format);
-		EncodeOptions options = encodeOptions(parameters, {});
-		options.progress      = progressBar(cb, "Encoding...");
+		const EncodeOptions options = encodeOptions(parameters, {});
+		const int preset            = integerOf(parameters, "preset", int(Preset::Custom));
+		if (preset < 0 || preset > int(Preset::Exact))
+			throw MLException("Wavemesh: 'preset' has to be 0 to 4.");
 
 		const Stopwatch watch;
-		const auto encoded = encode(toMeshData(layer.cm), options);
+		const auto encoded = encodeSmallest(
+		    toMeshData(layer.cm), optionsOf(Preset(preset), options),
+		    progressBar(cb, "Encoding..."));
 		require(encoded.status(), "Cannot save " + fileName);
 		writeFile(fileName, encoded->bytes);
 

@@ -9,6 +9,10 @@
 #include <common/mlexception.h>
 #include <common/parameters/rich_parameter_list.h>
 
+#if __has_include(<common/parameters/rich_parameter/rich_file_save.h>)
+#include <common/parameters/rich_parameter/rich_file_save.h>
+#endif
+
 #include <wrap/callback.h>
 
 #include <QString>
@@ -20,6 +24,13 @@
 #include <utility>
 
 namespace wavemesh {
+
+/// A file to write, as a parameter with a button: MeshLab 2022.02 has it under another name.
+#if __has_include(<common/parameters/rich_parameter/rich_file_save.h>)
+using SaveFileParameter = RichFileSave;
+#else
+using SaveFileParameter = RichSaveFile;
+#endif
 
 /// A status in a user's words, with what to do about it where that is known.
 QString explain(const Status& status);

@@ -12,6 +12,7 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QDir>
+#include <QElapsedTimer>
 #include <QFile>
 #include <QFileInfo>
 
@@ -114,6 +115,33 @@ bool printLevels(MeshLabHost& host, const QString& input, const QString& output)
 	return same;
 }
 
+/// Prints how fast the levels of a mesh follow the slider of Browse Levels: up from the base mesh
+/// the first time, when they are decoded on the way, and again.
+void printBrowsingSpeed(MeshLabHost& host, const QString& input, const QString& output)
+{
+	host.clear();
+	host.open(input);
+	host.save(output);
+	host.clear();
+	host.open(output, {{"level", "0"}});
+	const int finest = infoOf(output).finestLevel();
+	for (const char* round : {"first time", "again"}) {
+		double slowest = 0, all = 0;
+		for (int i = 1; i <= 2 * finest; ++i) { // up, and down again
+			const int level = i <= finest ? i : 2 * finest - i;
+			QElapsedTimer watch;
+			watch.start();
+			host.apply("Wavemesh: Browse Levels", {{"level", QString::number(level)}});
+			const double seconds = 1e-9 * double(watch.nsecsElapsed());
+			all += seconds;
+			slowest = std::max(slowest, seconds);
+		}
+		std::printf(
+		    "  %-10s  %d levels in %.2f s: %.1f levels/s; the slowest took %.2f s\n", round,
+		    2 * finest, all, 2 * finest / all, slowest);
+	}
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -130,6 +158,7 @@ int main(int argc, char** argv)
 	options.addOption({"plugins", "Load a plugin, or all of a folder.", "path"});
 	options.addOption({"script", "Run a filter script on each mesh first.", "file.mlx"});
 	options.addOption({"out", "Where the .wmc files go.", "folder", "."});
+	options.addOption({"browse", "Measure how fast Browse Levels follows its slider instead."});
 	options.process(app);
 
 	bool allSame = true;
@@ -141,6 +170,10 @@ int main(int argc, char** argv)
 		for (const QString& input : options.positionalArguments()) {
 			const QString name = options.value("out") + "/" + QFileInfo(input).completeBaseName();
 			std::printf("\n%s\n", qPrintable(QFileInfo(input).fileName()));
+			if (options.isSet("browse")) {
+				printBrowsingSpeed(host, input, name + ".wmc");
+				continue;
+			}
 			if (options.isSet("script"))
 				simplify(host, input, options.value("script"), name + "_simplified.wmc");
 			allSame = printLevels(host, input, name + ".wmc") && allSame;

@@ -5,6 +5,8 @@
 
 #include <wavemesh/codec.h>
 
+#include <QDir>
+#include <QFile>
 #include <QFileInfo>
 
 #include <cmath>
@@ -166,4 +168,71 @@ TEST(IoWavemesh, SavingWithFewerBitsGivesASmallerFile)
 	host.open(saved.original);
 	host.save(scratch("coarse.wmc"), {{"bits", "8"}});
 	EXPECT_LT(contents(scratch("coarse.wmc")).size(), saved.bytes.size());
+}
+
+TEST(IoWavemesh, APresetSetsLiftingAndCriterionAndExactIsTheFinestLattice)
+{
+	MeshLabHost& host = freshHost();
+	host.open(sample("pretzel.ply"));
+	const auto saved = [&](const char* preset) {
+		host.save(scratch("preset.wmc"), {{"preset", preset}, {"bits", "11"}, {"lifting", "3"}});
+		const QByteArray bytes = contents(scratch("preset.wmc"));
+		return *readInfo(
+		    reinterpret_cast<const std::uint8_t*>(bytes.constData()), std::size_t(bytes.size()));
+	};
+	EXPECT_EQ(saved("0").lifting, 2) << "as set below";
+	EXPECT_EQ(saved("2").lifting, 0);
+	EXPECT_EQ(saved("1").bits, 11);
+	EXPECT_LE(saved("1").bytes, saved("2").bytes);
+	EXPECT_TRUE(saved("3").wgc);
+	EXPECT_EQ(saved("4").bits, 24);
+	EXPECT_LE(saved("1").bytes, saved("0").bytes);
+	EXPECT_NE(messageOf([&] { host.save(scratch("preset.wmc"), {{"preset", "9"}}); }), QString());
+}
+
+TEST(IoWavemesh, AProjectComesBackWithEveryLevelAsALayer)
+{
+	const SavedSample saved;
+	const QString folder = scratch("project");
+	QDir().mkpath(folder);
+	QFile::copy(saved.file, folder + "/whole.wmc");
+	MeshLabHost& host = freshHost();
+	host.open(folder + "/whole.wmc", {{"all_levels", "true"}});
+	struct Layer
+	{
+		QString label;
+		int vertices, faces;
+		bool operator==(const Layer& o) const
+		{
+			return label == o.label && vertices == o.vertices && faces == o.faces;
+		}
+	};
+	const auto layers = [&] {
+		std::vector<Layer> all;
+		for (const MeshModel& m : host.document().meshIterator())
+			all.push_back({m.label(), m.cm.vn, m.cm.fn});
+		return all;
+	};
+	const auto before = layers();
+	ASSERT_EQ(int(before.size()), saved.info.finestLevel() + 1);
+	EXPECT_TRUE(before[1].label.contains("level 1 of")) << qPrintable(before[1].label);
+	const qint64 size = QFileInfo(folder + "/whole.wmc").size();
+
+	host.saveProject(folder + "/levels.mlp");
+	EXPECT_NEAR(double(QFileInfo(folder + "/whole.wmc").size()), double(size), 0.02 * double(size))
+	    << "a coarse level must not be saved over the whole file";
+	host.clear();
+	host.openProject(folder + "/levels.mlp");
+	EXPECT_TRUE(layers() == before);
+}
+
+TEST(IoWavemesh, ReloadingAnswersWithTheFinestLevel)
+{
+	const SavedSample saved;
+	MeshLabHost& host  = freshHost();
+	MeshModel* layer   = host.open(saved.file, {{"level", "1"}}).front();
+	const int vertices = layer->cm.vn;
+	host.reload(*layer);
+	EXPECT_GT(layer->cm.vn, vertices);
+	EXPECT_EQ(std::uint32_t(layer->cm.vn), saved.info.vertices);
 }

@@ -120,6 +120,26 @@ void MeshLabHost::save(const QString& file, const Settings& settings)
 	plugin->save(format, QFileInfo(file).absoluteFilePath(), mesh(), mask, parameters, progress);
 }
 
+void MeshLabHost::reload(MeshModel& layer)
+{
+	const KeepCurrentFolder keep;
+	meshlab::reloadMesh(layer.fullName(), {&layer}, &document_->Log, progress);
+}
+
+void MeshLabHost::saveProject(const QString& file)
+{
+	const KeepCurrentFolder keep;
+	// As MeshLab's "Save All Files": to the folder of the project.
+	meshlab::saveAllMeshes(QFileInfo(file).absolutePath(), *document_);
+	meshlab::saveProject(QFileInfo(file).absoluteFilePath(), *document_, false);
+}
+
+void MeshLabHost::openProject(const QString& file)
+{
+	const KeepCurrentFolder keep;
+	meshlab::loadProject(QFileInfo(file).absoluteFilePath(), *document_);
+}
+
 QString MeshLabHost::takeWarnings()
 {
 	QString warnings;

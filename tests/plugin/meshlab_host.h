@@ -47,8 +47,14 @@ public:
 	/// Opens a mesh file as one or more new layers; the last becomes the current one. A document
 	/// keeps no layer of a file that could not be opened.
 	std::list<MeshModel*> open(const QString& file, const Settings& settings = {});
+	/// Reads a layer's file anew, with the plugin's defaults.
+	void reload(MeshModel& layer);
 	/// Saves the current layer.
 	void save(const QString& file, const Settings& settings = {});
+	/// Saves the layers as files of a folder, and the document as a project (.mlp) there.
+	void saveProject(const QString& file);
+	/// Opens a project: its layers are added to the document.
+	void openProject(const QString& file);
 	/// What the plugins warned about while opening and saving since the last call.
 	QString takeWarnings();
 

@@ -2,10 +2,12 @@
 // Inverse irregular subdivision, one step and all of them.
 #include "mesh_check.h"
 #include "multires/quadrics.h"
+#include "multires/refine.h"
 #include "stage_meshes.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -227,6 +229,63 @@ TEST(Coarsen, UndoesRegularSubdivision)
 	const StageMesh fine    = stageMesh(makeIcosphere(8));
 	const Coarsening coarse = coarsen(fine.table, fine.positions, {});
 	EXPECT_EQ(coarse.coarse.vertexCount, 10u * 4 * 4 + 2) << "4:1 everywhere";
+}
+
+/// Two tori in one: all vertices have six neighbours but the three at the seam, which have ten.
+MeshData makeDoubleTorus()
+{
+	MeshData mesh   = makeTorus(5, 5);
+	const auto one  = mesh;
+	const auto many = static_cast<std::uint32_t>(one.positions.size());
+	const auto seam = one.triangles[0];
+	mesh            = joined({one, moved(one, 9, 0, 0)});
+	mesh.triangles.erase(
+	    mesh.triangles.begin() + static_cast<std::ptrdiff_t>(one.triangles.size()));
+	mesh.triangles.erase(mesh.triangles.begin());
+	// The second one's seam, turned round, becomes the first one's; the gaps close behind it.
+	std::vector<std::uint32_t> name(2 * many);
+	std::iota(name.begin(), name.end(), 0u);
+	const std::uint32_t at[3] = {seam[0], seam[2], seam[1]};
+	std::vector<std::array<double, 3>> positions(
+	    mesh.positions.begin(), mesh.positions.begin() + many);
+	for (std::uint32_t v = 0; v < many; ++v) {
+		const auto k = std::find(seam.begin(), seam.end(), v) - seam.begin();
+		if (k < 3)
+			name[many + v] = at[k];
+		else {
+			name[many + v] = static_cast<std::uint32_t>(positions.size());
+			positions.push_back(mesh.positions[many + v]);
+		}
+	}
+	for (auto& t : mesh.triangles)
+		for (auto& v : t)
+			v = name[v];
+	mesh.positions = positions;
+	return mesh;
+}
+
+TEST(Coarsen, UndoesRegularSubdivisionWhereAllExtraordinaryVerticesAreHubs)
+{
+	const StageMesh coarse = stageMesh(makeDoubleTorus());
+	Refinement all;
+	all.parentVertices = all.childVertices = coarse.table.vertexCount;
+	all.childOnEdge.assign(coarse.table.cornerCount(), kNone);
+	all.faceCode.assign(coarse.table.faceCount(), kFaceNone);
+	for (Index c = 0; c < coarse.table.cornerCount(); ++c) {
+		const Index d      = coarse.table.opposite[c];
+		all.childOnEdge[c] = d < c ? all.childOnEdge[d] : all.childVertices++;
+	}
+	const CornerTable fine = refine(coarse.table, all);
+	const MeshData mesh    = meshOf(fine, std::vector<LatticePoint>(fine.vertexCount));
+	for (const std::uint64_t seed : {61u, 62u, 63u}) {
+		const auto shuffledFine =
+		    buildCornerTable(shuffled(mesh, seed).triangles, fine.vertexCount);
+		ASSERT_TRUE(shuffledFine.ok());
+		const std::vector<LatticePoint> positions(fine.vertexCount);
+		EXPECT_EQ(
+		    coarsen(*shuffledFine, positions, {}).coarse.vertexCount, coarse.table.vertexCount)
+		    << "4:1 everywhere, seed " << seed;
+	}
 }
 
 TEST(Coarsen, ShrinksIrregularMeshesByNearlyTwoOnAverage)

@@ -66,6 +66,8 @@ int main()
 			o.optimize = lifting % 2 == 0 ? Optimize::Size
 			             : lifting == 1   ? Optimize::Balanced
 			                              : Optimize::Levels;
+			o.effort   = lifting == 0 ? 1 : 2;
+			o.mode     = lifting == 1 ? Mode::Compact : Mode::Classic;
 			if (!print(m.name.c_str(), m.mesh, o))
 				return 1;
 		}

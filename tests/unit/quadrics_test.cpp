@@ -204,7 +204,7 @@ TEST(CoarsenByError, RemovesNothingOverTheLimitOfTheStep)
 		const CoarsenState before(m.table);
 		const ErrorCriterion criterion {&quadrics, 0.6};
 		const RemovalError error(before, m.positions, criterion);
-		const Coarsening step = coarsen(m.table, m.positions, {}, criterion);
+		const Coarsening step = coarsen(m.table, m.positions, {}, {}, criterion);
 		ASSERT_LT(step.fineVertex.size(), m.table.vertexCount);
 		for (Index c = 0; c < step.coarse.cornerCount(); ++c)
 			if (step.childOnEdge[c] != kNone) {

@@ -26,6 +26,8 @@ std::vector<EncodeOptions> everyPairOfOptions()
 			o.lifting  = lifting;
 			o.wgc      = kWgc[all.size() % 3];
 			o.optimize = kOptimize[(all.size() + all.size() / 3) % 3];
+			o.effort   = 1 + static_cast<int>(all.size() / 2 % 3);
+			o.mode     = all.size() % 2 == 0 ? Mode::Compact : Mode::Classic;
 			all.push_back(o);
 		}
 	return all;

@@ -5,6 +5,8 @@
 
 #include "file_io.h"
 
+#include <metrics/rate_distortion.h>
+
 #include <wavemesh/codec.h>
 
 #include <CLI/CLI.hpp>
@@ -16,20 +18,22 @@ namespace wavemesh::tool {
 /// Options of encode, report and bench, as typed.
 struct CodecOptions
 {
-	int bits             = 12;
-	double step          = 0;
-	std::string mode     = "classic";
-	std::string lifting  = "0";
-	std::string optimize = "size";
-	std::string wgc      = "auto";
-	double sharpness     = 0.3;
-	double deviation     = 0.25;
+	int bits            = 12;
+	double step         = 0;
+	std::string mode    = "compact";
+	int effort          = 2;
+	std::string lifting = "0";
+	std::string optimize = "balanced";
+	std::string wgc     = "auto";
+	double sharpness    = 0.3;
+	double deviation    = 0.25;
+	bool exact          = false;
 
 	void addTo(CLI::App& command);
 	EncodeOptions toEncodeOptions() const;
 };
 
-std::string nameOf(LevelKind kind);
+using metrics::nameOf; // of a LevelKind
 std::string nameOf(Mode mode);
 std::string nameOf(Optimize optimize);
 std::string nameOfLifting(int lifting);           ///< off, 0, 1, 2

@@ -3,6 +3,8 @@
 /// The level table and the sizes of a file, as JSON and as text.
 #pragma once
 
+#include <metrics/rate_distortion.h>
+
 #include <wavemesh/codec.h>
 
 #include <nlohmann/json.hpp>
@@ -11,8 +13,7 @@ namespace wavemesh::tool {
 
 using Json = nlohmann::ordered_json;
 
-/// Bits per vertex of the original.
-double bitsPerVertex(std::uint64_t bytes, std::uint64_t vertices);
+using metrics::bitsPerVertex;
 
 /// What every command's JSON has: vertices, faces, bytes, bits_per_vertex, levels, the codec's
 /// options, and encode_seconds and decode_seconds, null until a command measures them.

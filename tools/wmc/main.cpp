@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "console.h"
 #include "failure.h"
+#include "man_page.h"
 
 #include <cstdio>
 #include <exception>
@@ -39,6 +40,14 @@ int run(int argc, char** argv)
 	addVerify(app, chosen);
 	addReport(app, chosen);
 	addBench(app, chosen);
+	app.add_flag_callback(
+	       "--man",
+	       [&app] {
+		       std::fputs(manPage(app, WAVEMESH_VERSION).c_str(), stdout);
+		       throw CLI::Success();
+	       },
+	       "Print the manual page")
+	    ->group(""); // for those who build packages
 	try {
 		app.parse(argc, argv);
 	}

@@ -49,12 +49,14 @@ struct Coarsening
 
 /// @param fine       M^j, vertices without faces not allowed
 /// @param positions  #V_j by 3, lattice units, |x| < 2^30; guide the criterion and the choice only
+/// @param kept       #V_j: 1 for vertices that must stay; empty if any may go
 /// @return M^{j-1}; the same connectivity with coarse.vertexCount == fine.vertexCount if nothing
 ///         could be merged. Linear.
 Coarsening coarsen(
     const CornerTable& fine,
     const std::vector<LatticePoint>& positions,
     const GeometricalCriterion& criterion,
-    const ErrorCriterion& errorCriterion = {});
+    const std::vector<std::uint8_t>& kept = {},
+    const ErrorCriterion& errorCriterion  = {});
 
 } // namespace wavemesh

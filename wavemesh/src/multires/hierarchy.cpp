@@ -17,13 +17,13 @@ bool worthwhile(Index coarse, Index fine)
 	return coarse < fine && (fine <= kSmall || coarse <= fine - fine / 16);
 }
 
-std::vector<LatticePoint>
-pick(const std::vector<LatticePoint>& positions, const std::vector<Index>& rows)
+template <class Value>
+std::vector<Value> pick(const std::vector<Value>& values, const std::vector<Index>& rows)
 {
-	std::vector<LatticePoint> out;
+	std::vector<Value> out;
 	out.reserve(rows.size());
 	for (const Index row : rows)
-		out.push_back(positions[row]);
+		out.push_back(values[row]);
 	return out;
 }
 
@@ -88,27 +88,32 @@ Refinement canonical(const CornerTable& parent, const Coarsening& step, std::vec
 
 /// One step by its error; with less choice, and at last without, where that removes too little.
 Coarsening
-steer(const CornerTable& fine, const std::vector<LatticePoint>& points, ErrorCriterion criterion)
+steer(
+    const CornerTable& fine,
+    const std::vector<LatticePoint>& points,
+    const std::vector<std::uint8_t>& kept,
+    ErrorCriterion criterion)
 {
 	for (const double share : {criterion.share, kLenientShare}) {
 		criterion.share = share;
-		Coarsening step = coarsen(fine, points, {}, criterion);
+		Coarsening step = coarsen(fine, points, {}, kept, criterion);
 		if (worthwhile(step.coarse.vertexCount, fine.vertexCount))
 			return step;
 	}
-	return coarsen(fine, points, {});
+	return coarsen(fine, points, {}, kept);
 }
 
 /// One step by connectivity, and the geometrical criterion.
 Coarsening coarsenFreely(
     const CornerTable& fine,
     const std::vector<LatticePoint>& points,
-    const GeometricalCriterion& criterion)
+    const GeometricalCriterion& criterion,
+    const std::vector<std::uint8_t>& kept)
 {
-	Coarsening step = coarsen(fine, points, criterion);
+	Coarsening step = coarsen(fine, points, criterion, kept);
 	// Where nearly everything is sharp the criterion would stop the coarsening for good.
 	if (criterion.active && step.coarse.vertexCount > fine.vertexCount - fine.vertexCount / 4)
-		step = coarsen(fine, points, {});
+		step = coarsen(fine, points, {}, kept);
 	return step;
 }
 
@@ -119,26 +124,30 @@ std::vector<Coarsening> coarsenAll(
     const std::vector<LatticePoint>& positions,
     const GeometricalCriterion& criterion,
     const Steering& steering,
-    const std::function<bool(double)>& step)
+    const std::function<bool(double)>& step,
+    const std::vector<std::uint8_t>& kept)
 {
 	std::vector<Coarsening> steps;
 	const CornerTable* fine          = &table;
 	std::vector<LatticePoint> points = positions;
+	std::vector<std::uint8_t> stay   = kept;
 	Quadrics quadrics;
 	if (steering.freeSteps != Steering::kNever)
 		quadrics = Quadrics(table, positions);
 	for (int i = 0;; ++i) {
 		Coarsening next =
 		    i < steering.freeSteps
-		        ? coarsenFreely(*fine, points, criterion)
+		        ? coarsenFreely(*fine, points, criterion, stay)
 		        : steer(
-		              *fine, points,
+		              *fine, points, stay,
 		              {&quadrics, i == steering.freeSteps ? steering.firstShare : steering.share});
 		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount))
 			break;
 		if (steering.freeSteps != Steering::kNever)
 			quadrics.carry(next, points);
 		points = pick(points, next.fineVertex);
+		if (!stay.empty())
+			stay = pick(stay, next.fineVertex);
 		steps.push_back(std::move(next));
 		fine = &steps.back().coarse;
 		if (!step(1 - double(fine->vertexCount) / double(table.vertexCount)))

@@ -40,23 +40,24 @@ RemovalError::RemovalError(
 double RemovalError::least(Index v) const
 {
 	double best  = kInfinite;
-	const Star s = state_.star(v);
+	const Star& s = state_.star(v);
 	if (s.size > Star::kMax)
 		return best;
 	for (int i = 0; i < s.size; ++i)
 		for (int k = i + 2; k < s.size; ++k) {
-			Side side[2];
-			if (const int n = state_.sides(s, s.ring[i], s.ring[k], side); n > 0)
-				best = std::min(best, ofSides({v, s.ring[i], s.ring[k]}, side, n));
+			if (CoarsenState::fits(s, i, k))
+				best = std::min(best, ofPlaces({v, s.ring[i], s.ring[k]}, i, k));
 		}
 	return best;
 }
 
 double RemovalError::of(const ChildOf& p) const
 {
-	Side side[2];
-	const int n = state_.sides(state_.star(p.child), p.parentA, p.parentB, side);
-	return n > 0 ? ofSides(p, side, n) : kInfinite;
+	const Star& s = state_.star(p.child);
+	if (s.size > Star::kMax)
+		return kInfinite;
+	const int a = s.find(p.parentA), b = s.find(p.parentB);
+	return a >= 0 && b >= 0 && CoarsenState::fits(s, a, b) ? ofPlaces(p, a, b) : kInfinite;
 }
 
 double RemovalError::relative(const ChildOf& p) const
@@ -74,7 +75,7 @@ bool RemovalError::allowsCentre(Index v) const
 {
 	if (!active())
 		return true;
-	const Star s = state_.star(v);
+	const Star& s = state_.star(v);
 	Vector3 place {};
 	for (int i = 0; i < s.size && i < 3; ++i)
 		for (std::size_t k = 0; k < 3; ++k)
@@ -89,10 +90,11 @@ double RemovalError::error(Index child, const Vector3& place) const
 	return std::max(0.0, q.at(place) - q.at({0, 0, 0}));
 }
 
-double RemovalError::ofSides(const ChildOf& p, const Side* side, int count) const
+double RemovalError::ofPlaces(const ChildOf& p, int placeA, int placeB) const
 {
-	for (int i = 0; i < count; ++i)
-		if (folds(side[i]))
+	const Star& s = state_.star(p.child);
+	for (int i = 0; i < CoarsenState::sideCount(s); ++i)
+		if (folds(CoarsenState::side(s, placeA, placeB, i)))
 			return kInfinite;
 	Vector3 middle;
 	for (std::size_t k = 0; k < 3; ++k)

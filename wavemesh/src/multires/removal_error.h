@@ -42,7 +42,8 @@ public:
 private:
 	double error(Index child, const Vector3& place) const;
 	double least(Index v) const;
-	double ofSides(const ChildOf& proposal, const Side* side, int count) const;
+	/// With the parents at these places of the child's ring. @pre CoarsenState::fits()
+	double ofPlaces(const ChildOf& proposal, int placeA, int placeB) const;
 	bool folds(const Side& side) const;
 
 	const CoarsenState& state_;

@@ -9,7 +9,7 @@
 #include <functional>
 #include <memory>
 
-namespace wavemesh::tool {
+namespace wavemesh::metrics {
 
 struct SurfaceDistance
 {
@@ -29,6 +29,8 @@ public:
 
 	/// Of the original's bounding box, model units; never 0.
 	double diagonal() const { return diagonal_; }
+	/// On each of the two surfaces.
+	std::size_t samples() const { return samples_; }
 
 	SurfaceDistance
 	measure(const MeshData& mesh, const std::function<void(double)>& progress = {}) const;
@@ -40,4 +42,4 @@ private:
 	double diagonal_;
 };
 
-} // namespace wavemesh::tool
+} // namespace wavemesh::metrics

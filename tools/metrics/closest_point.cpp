@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace wavemesh::tool {
+namespace wavemesh::metrics {
 
 namespace {
 
@@ -162,4 +162,4 @@ double ClosestPoint::distance(const Vec3& p) const
 	return std::sqrt(best);
 }
 
-} // namespace wavemesh::tool
+} // namespace wavemesh::metrics

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace wavemesh::tool {
+namespace wavemesh::metrics {
 
 using Vec3 = std::array<double, 3>;
 
@@ -47,4 +47,4 @@ private:
 	mutable std::uint32_t last_ = 0; ///< nearest face of the point asked for last
 };
 
-} // namespace wavemesh::tool
+} // namespace wavemesh::metrics

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace wavemesh::tool {
+namespace wavemesh::metrics {
 
 namespace {
 
@@ -129,4 +129,4 @@ DistanceMeter::measure(const MeshData& mesh, const std::function<void(double)>& 
 	return result;
 }
 
-} // namespace wavemesh::tool
+} // namespace wavemesh::metrics

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/quantization.h"
+#include "multires/hierarchy.h"
+#include "wavelet/lifting.h"
+
+#include <wavemesh/multiresolution.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numeric>
+
+namespace wavemesh {
+
+/// One subdivision step, in the numbering of the mesh.
+struct Multiresolution::Levels
+{
+	struct Step
+	{
+		std::vector<Index> children;
+		/// Entry e adds alpha[e] times the detail of the child to vertex[e], as in UpdateWeights.
+		std::vector<Index> begin, vertex;
+		std::vector<double> alpha;
+	};
+
+	std::vector<Step> steps;         ///< coarsest first: steps[j - 1] leads to level j
+	std::vector<std::size_t> counts; ///< vertices, by level
+	std::vector<int> birth;
+	std::vector<std::array<std::uint32_t, 3>> parents;
+	std::vector<Vec3> normals;
+
+	Vec3 prediction(Index child, const std::vector<Vec3>& values) const;
+	void analyse(const Step& step, std::vector<Vec3>& values) const;
+	void synthesise(const Step& step, std::vector<Vec3>& values) const;
+};
+
+namespace {
+
+/// Lattice on which the coarsening is chosen: as fine as the codec's finest but for overflow.
+constexpr int kSearchBits = 20;
+
+Vec3 operator+(const Vec3& a, const Vec3& b)
+{
+	return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+Vec3 operator-(const Vec3& a, const Vec3& b)
+{
+	return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Vec3 operator*(double s, const Vec3& a)
+{
+	return {s * a[0], s * a[1], s * a[2]};
+}
+double dot(const Vec3& a, const Vec3& b)
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Vec3 cross(const Vec3& a, const Vec3& b)
+{
+	return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Vec3 unit(const Vec3& a)
+{
+	const double length = std::sqrt(dot(a, a));
+	return length > 0 ? (1 / length) * a : Vec3 {0, 0, 0};
+}
+
+/// What the threshold takes off a detail.
+double partCut(double detail, double threshold)
+{
+	return std::fabs(detail) <= threshold ? detail : threshold * threshold / detail;
+}
+
+/// Normals of a level, weighted by area, at the mesh's vertices that it has; others stay.
+void addNormals(
+    const CornerTable& table,
+    const std::vector<Index>& source,
+    const std::vector<Vec3>& positions,
+    std::vector<Vec3>& normals)
+{
+	for (Index v = 0; v < table.vertexCount; ++v)
+		normals[source[v]] = {0, 0, 0};
+	for (Index c = 0; c < table.cornerCount(); c += 3) {
+		const Index t[3] = {
+		    source[table.vertex[c]], source[table.vertex[c + 1]], source[table.vertex[c + 2]]};
+		const Vec3 n = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
+		for (const Index v : t)
+			normals[v] = normals[v] + n;
+	}
+	for (Index v = 0; v < table.vertexCount; ++v)
+		normals[source[v]] = unit(normals[source[v]]);
+}
+
+Status checkMesh(const MeshData& mesh, const MultiresolutionOptions& options)
+{
+	if (options.lifting < kLiftingOff || options.lifting > 2)
+		return {StatusCode::InvalidArgument, "lifting must be off or the k of a k-disc, 0 to 2"};
+	if (mesh.triangles.empty())
+		return {StatusCode::Unsupported, "the mesh has no faces"};
+	if (mesh.positions.size() > std::numeric_limits<std::int32_t>::max() / 3 ||
+	    mesh.triangles.size() > std::numeric_limits<std::int32_t>::max() / 3)
+		return {StatusCode::LimitExceeded, "the mesh has more than 715 million vertices or faces"};
+	return {};
+}
+
+/// All levels of the mesh, numbered from the base up; Replay::source leads back.
+Result<Replay> levelsOf(const MeshData& mesh, const MultiresolutionOptions& options)
+{
+	if (Status s = checkMesh(mesh, options); !s.ok())
+		return s;
+	const auto lattice = makeLattice(mesh.positions, kSearchBits, 0);
+	if (!lattice.ok())
+		return lattice.status();
+	auto table = buildCornerTable(mesh.triangles, Index(mesh.positions.size()));
+	if (!table.ok())
+		return table.status();
+	const GeometricalCriterion criterion {
+	    options.wgc != Wgc::Off, options.wgcSharpness, options.wgcDeviation};
+	bool running = true;
+	auto coarsenings =
+	    coarsenAll(*table, quantise(mesh.positions, *lattice), criterion, {}, [&](double fraction) {
+		    running = !options.progress || options.progress(0.8 * fraction);
+		    return running;
+	    });
+	if (!running)
+		return Status(StatusCode::Cancelled, "cancelled");
+	CornerTable base = coarsenings.empty() ? std::move(*table) : coarsenings.back().coarse;
+	std::vector<Index> source(base.vertexCount);
+	std::iota(source.begin(), source.end(), 0);
+	return replay(std::move(coarsenings), std::move(base), std::move(source));
+}
+
+} // namespace
+
+Vec3 Multiresolution::Levels::prediction(Index child, const std::vector<Vec3>& values) const
+{
+	const auto& p  = parents[child];
+	const Vec3 sum = values[p[0]] + values[p[1]];
+	return p[2] == kNoParent ? 0.5 * sum : (1.0 / 3) * (sum + values[p[2]]);
+}
+
+void Multiresolution::Levels::analyse(const Step& step, std::vector<Vec3>& values) const
+{
+	for (const Index child : step.children)
+		values[child] = values[child] - prediction(child, values);
+	for (std::size_t i = 0; i + 1 < step.begin.size(); ++i)
+		for (Index e = step.begin[i]; e < step.begin[i + 1]; ++e)
+			values[step.vertex[e]] =
+			    values[step.vertex[e]] + step.alpha[e] * values[step.children[i]];
+}
+
+void Multiresolution::Levels::synthesise(const Step& step, std::vector<Vec3>& values) const
+{
+	for (std::size_t i = 0; i + 1 < step.begin.size(); ++i)
+		for (Index e = step.begin[i]; e < step.begin[i + 1]; ++e)
+			values[step.vertex[e]] =
+			    values[step.vertex[e]] - step.alpha[e] * values[step.children[i]];
+	for (const Index child : step.children)
+		values[child] = values[child] + prediction(child, values);
+}
+
+Result<Multiresolution>
+Multiresolution::of(const MeshData& mesh, const MultiresolutionOptions& options)
+{
+	try {
+		auto replayed = levelsOf(mesh, options);
+		if (!replayed.ok())
+			return replayed.status();
+		const std::vector<Index>& source = replayed->source;
+		auto levels                      = std::make_shared<Levels>();
+		levels->birth.assign(mesh.positions.size(), 0);
+		levels->parents.assign(mesh.positions.size(), {kNoParent, kNoParent, kNoParent});
+		levels->normals.assign(mesh.positions.size(), {0, 0, 0});
+		levels->steps.resize(replayed->levels.size());
+		levels->counts.push_back(
+		    replayed->levels.empty() ? source.size() : replayed->levels[0].parent.vertexCount);
+		for (const ReplayedLevel& level : replayed->levels)
+			levels->counts.push_back(level.refinement.childVertices);
+
+		// From the finest down: each step needs the positions of the level below it, lifted.
+		std::vector<Vec3> positions = mesh.positions;
+		if (levels->steps.empty())
+			addNormals(replayed->finest, source, positions, levels->normals);
+		for (std::size_t j = levels->steps.size(); j-- > 0;) {
+			ReplayedLevel level   = std::move(replayed->levels[j]);
+			Levels::Step& step    = levels->steps[j];
+			const Parents parents = parentsOf(level.parent, level.refinement);
+			const UpdateWeights weights =
+			    updateWeights(level.parent, level.refinement, parents, options.lifting);
+			for (std::size_t i = 0; i < parents.size(); ++i) {
+				const Index child = source[level.refinement.parentVertices + i];
+				step.children.push_back(child);
+				levels->birth[child] = int(j) + 1;
+				for (std::size_t k = 0; k < 3; ++k)
+					levels->parents[child][k] =
+					    parents[i][k] == kNone ? kNoParent : source[parents[i][k]];
+			}
+			step.begin = weights.begin;
+			for (std::size_t e = 0; e < weights.vertex.size(); ++e) {
+				step.vertex.push_back(source[weights.vertex[e]]);
+				step.alpha.push_back(weights.alpha[e] / 65536.0);
+			}
+			levels->analyse(step, positions);
+			// The vertices of the level below get normals that are theirs only until its own turn.
+			addNormals(level.parent, source, positions, levels->normals);
+			for (const Index child : step.children)
+				levels->normals[child] = unit(levels->prediction(child, levels->normals));
+			const double done = 1 - double(level.parent.vertexCount) / double(source.size());
+			if (options.progress && !options.progress(0.8 + 0.2 * done))
+				return Status(StatusCode::Cancelled, "cancelled");
+		}
+		return Multiresolution(std::move(levels));
+	}
+	catch (const std::bad_alloc&) {
+		return Status(StatusCode::OutOfMemory, "not enough memory for the levels of this mesh");
+	}
+}
+
+int Multiresolution::finestLevel() const
+{
+	return int(levels_->steps.size());
+}
+
+std::size_t Multiresolution::vertexCount() const
+{
+	return levels_->birth.size();
+}
+
+std::size_t Multiresolution::vertexCount(int level) const
+{
+	return levels_->counts[std::size_t(level)];
+}
+
+const std::vector<int>& Multiresolution::birth() const
+{
+	return levels_->birth;
+}
+
+const std::vector<std::array<std::uint32_t, 3>>& Multiresolution::parents() const
+{
+	return levels_->parents;
+}
+
+const std::vector<Vec3>& Multiresolution::normals() const
+{
+	return levels_->normals;
+}
+
+void Multiresolution::analyse(std::vector<Vec3>& values) const
+{
+	for (auto step = levels_->steps.rbegin(); step != levels_->steps.rend(); ++step)
+		levels_->analyse(*step, values);
+}
+
+void Multiresolution::synthesise(std::vector<Vec3>& values) const
+{
+	for (const auto& step : levels_->steps)
+		levels_->synthesise(step, values);
+}
+
+std::vector<double> measureDetails(
+    const Multiresolution& levels, const std::vector<Vec3>& positions, DetailMeasure measure)
+{
+	std::vector<double> out(positions.size(), 0);
+	if (measure == DetailMeasure::Birth) {
+		std::copy(levels.birth().begin(), levels.birth().end(), out.begin());
+		return out;
+	}
+	std::vector<Vec3> details = positions;
+	levels.analyse(details);
+	for (std::size_t v = 0; v < out.size(); ++v)
+		if (levels.birth()[v] > 0)
+			out[v] = measure == DetailMeasure::Normal ? dot(details[v], levels.normals()[v])
+			                                          : std::sqrt(dot(details[v], details[v]));
+	return out;
+}
+
+std::vector<Vec3> equalise(
+    const Multiresolution& levels, const std::vector<Vec3>& positions, const Equaliser& equaliser)
+{
+	std::vector<Vec3> changes = positions;
+	levels.analyse(changes);
+	for (std::size_t v = 0; v < changes.size(); ++v) {
+		const auto birth = std::size_t(levels.birth()[v]);
+		const Vec3 d = changes[v], n = levels.normals()[v];
+		changes[v] = {0, 0, 0};
+		if (birth == 0)
+			continue;
+		const double gain  = birth < equaliser.gains.size() ? equaliser.gains[birth] : 1;
+		const double along = dot(d, n);
+		const bool cuts    = int(birth) > levels.finestLevel() - equaliser.thresholdLevels;
+		const double cut   = cuts ? partCut(along, equaliser.threshold) : 0;
+		const Vec3 scaled  = equaliser.normalOnly ? (along - cut) * n : d - cut * n;
+		// Spelt so that gain 1 and threshold 0 give zeros, whatever the rounding.
+		changes[v] = (gain - 1) * scaled - cut * n;
+	}
+	levels.synthesise(changes);
+	std::vector<Vec3> out = positions;
+	for (std::size_t v = 0; v < out.size(); ++v)
+		for (std::size_t k = 0; k < 3; ++k)
+			if (changes[v][k] != 0) // adding 0 would turn -0 into 0
+				out[v][k] += changes[v][k];
+	return out;
+}
+
+} // namespace wavemesh
