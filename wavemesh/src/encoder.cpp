@@ -37,7 +37,7 @@ Steering steeringFor(Optimize optimize)
 	case Optimize::Balanced:
 		return {1, 0.9, 0.75};
 	case Optimize::Levels:
-		return {0, 0.8, 0.6};
+		return {0, 0.9, 0.6};
 	case Optimize::Size:
 		break;
 	}

@@ -9,11 +9,8 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-
 /// A 4:1 merge may make so many times the error of other removals.
 constexpr double kCompleteRelief = 4;
-/// Coarse faces stay within this cosine of what was there; squared.
-constexpr double kSquaredFold = 0.04;
 
 } // namespace
 
@@ -122,13 +119,8 @@ bool RemovalError::folds(const Side& s) const
 		for (std::size_t k = 0; k < 3; ++k)
 			before[k] += n[k];
 	}
-	const double square = kSquaredFold * squaredNorm(before);
 	// A face without area turns nowhere.
-	const auto turns = [&](Index a, Index b, Index c) {
-		const Vector3 after   = normal(a, b, c);
-		const double together = dot(before, after);
-		return together < 0 || together * together < square * squaredNorm(after);
-	};
+	const auto turns = [&](Index a, Index b, Index c) { return dot(before, normal(a, b, c)) < 0; };
 	if (s.count == 1)
 		return turns(s.from, s.inner[0], s.to);
 	return (turns(s.from, s.inner[0], s.to) || turns(s.to, s.inner[0], s.inner[1])) &&
