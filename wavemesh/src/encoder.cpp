@@ -35,13 +35,27 @@ Steering steeringFor(Optimize optimize)
 {
 	switch (optimize) {
 	case Optimize::Balanced:
-		return {1, 0.9, 0.75};
+		return {1, 0.95, 0.85};
 	case Optimize::Levels:
-		return {0, 0.9, 0.6};
+		return {0, 0.95, 0.7};
 	case Optimize::Size:
 		break;
 	}
 	return {};
+}
+
+/// ScheduleOptions::cellErrors. Where coordinates repeat, exact ones early even save bits.
+double cellErrorsFor(Optimize optimize, bool repeats)
+{
+	switch (optimize) {
+	case Optimize::Balanced:
+		return repeats ? 2 : 12;
+	case Optimize::Levels:
+		return 2;
+	case Optimize::Size:
+		break;
+	}
+	return 0;
 }
 
 /// Cuts, and rounds to the lattice.
@@ -81,8 +95,11 @@ public:
 		const bool both = options_.wgc == Wgc::Auto && options_.optimize != Optimize::Levels &&
 		                  (options_.mode == Mode::Classic || options_.effort == 3);
 		const Stage whole(options_.progress, 0, 1);
+		// Undecided: keeping sharp edges is what Balanced is for.
+		const bool preferred = options_.wgc == Wgc::On || (options_.wgc == Wgc::Auto &&
+		                                                   options_.optimize == Optimize::Balanced);
 		for (const bool wgc : {false, true}) {
-			if (!both && wgc != (options_.wgc == Wgc::On))
+			if (!both && wgc != preferred)
 				continue;
 			const Stage stage = both ? whole.part(wgc ? 0.5 : 0, wgc ? 1 : 0.5) : whole;
 			const GeometricalCriterion criterion {
@@ -141,12 +158,18 @@ private:
 
 	std::vector<ScheduleOptions> schedulesFor(const Levels& levels) const
 	{
-		constexpr int kAll = ScheduleOptions::kAll;
-		const bool repeats = repeatsItself(levels.replay.finest, levels.positions);
+		constexpr int kAll  = ScheduleOptions::kAll;
+		const bool repeats  = repeatsItself(levels.replay.finest, levels.positions);
+		const double errors = cellErrorsFor(options_.optimize, repeats);
+		const int last      = repeats ? kAll : 2;
 		if (options_.effort < 3)
-			return {repeats ? ScheduleOptions {8, 2, kAll} : ScheduleOptions {8, 2, 2}};
-		const int last = repeats ? kAll : 2;
-		return {{8, 1, 1}, {8, 1, 2}, {8, 1, kAll}, {4, 1, last}, {12, 1, last}};
+			return {{8, 2, last, errors}};
+		return {
+		    {8, 1, 1, errors},
+		    {8, 1, 2, errors},
+		    {8, 1, kAll, errors},
+		    {4, 1, last, errors},
+		    {12, 1, last, errors}};
 	}
 
 	void keepIfSmaller(const Levels& levels, Head& head, std::vector<std::uint8_t>& chunks)

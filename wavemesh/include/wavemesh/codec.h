@@ -31,7 +31,8 @@ enum class Mode : std::uint8_t {
 enum class Wgc : std::uint8_t {
 	Off  = 0, ///< geometry-blind coarsening
 	On   = 1,
-	Auto = 2, ///< both are encoded and the smaller file is kept; Compact: only with effort 3, else Off
+	Auto = 2, ///< both are encoded and the smaller file is kept; Compact: only with effort 3, else
+	          ///< On for Optimize::Balanced and Off for Size
 };
 
 /// What the choice of the vertices that each step removes is good for. Sizes and errors of all
@@ -82,7 +83,7 @@ struct EncodeOptions
 };
 
 enum class LevelKind : std::uint8_t {
-	Base  = 0, ///< the coarsest mesh
+	Base    = 0, ///< the coarsest mesh
 	Split   = 1, ///< one subdivision step
 	Precise = 2, ///< more bits for every position; the same vertices and faces
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "encode/schedule.h"
 
+#include "encode/level_errors.h"
 #include "mesh/integer_math.h"
 
 #include <algorithm>
@@ -33,8 +34,18 @@ int shiftFor(const CornerTable& table, const std::vector<LatticePoint>& position
 Schedule makeSchedule(const Levels& levels, int latticeBits, const ScheduleOptions& options)
 {
 	Schedule schedule;
-	int shift = std::min(
-	    shiftFor(levels.table(0), levels.positions, options.cellSixteenths), latticeBits - 1);
+	const std::vector<double> errors =
+	    options.cellErrors > 0 ? levelErrors(levels) : std::vector<double>();
+	const auto shiftOf = [&](std::size_t i) {
+		int most = latticeBits - 1;
+		if (options.cellErrors > 0) {
+			const double cell = options.cellErrors * errors[i];
+			for (most = 0; most < latticeBits - 1 && double(2u << most) <= cell;)
+				++most;
+		}
+		return std::min(most, shiftFor(levels.table(i), levels.positions, options.cellSixteenths));
+	};
+	int shift          = shiftOf(0);
 	schedule.baseShift = shift;
 	if (levels.splits() == 0)
 		schedule.baseShift = shift = 0;
@@ -49,11 +60,7 @@ Schedule makeSchedule(const Levels& levels, int latticeBits, const ScheduleOptio
 	};
 	for (std::size_t i = 1; i <= levels.splits(); ++i) {
 		schedule.steps.push_back({LevelKind::Split, 0});
-		const int target =
-		    i == levels.splits()
-		        ? 0
-		        : shiftFor(levels.table(i), levels.positions, options.cellSixteenths);
-		sharpen(target);
+		sharpen(i == levels.splits() ? 0 : shiftOf(i));
 	}
 	return schedule;
 }

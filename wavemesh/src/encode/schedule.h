@@ -22,6 +22,9 @@ struct ScheduleOptions
 	/// whole, vertex after vertex; the smallest where coordinates repeat, as on CAD and scan
 	/// lattices.
 	int lastBits = 1;
+	/// A level's cells are no wider than so many times its error (level_errors.h): wider ones cost
+	/// more in distance than they save in bits. 0: no such bound, the smallest file.
+	double cellErrors = 0;
 };
 
 /// A refinement: a split, or `bits` more bits of every coordinate.
