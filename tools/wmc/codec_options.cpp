@@ -77,6 +77,11 @@ void CodecOptions::addTo(CLI::App& command)
 	        "--exact", exact,
 	        "Keep every coordinate bit for bit: the finest level is float-lossless")
 	    ->group(group);
+	command
+	    .add_flag(
+	        "--keep-order", keepOrder,
+	        "Keep the order of vertices and faces, and each face's first corner")
+	    ->group(group);
 }
 
 EncodeOptions CodecOptions::toEncodeOptions() const
@@ -90,6 +95,7 @@ EncodeOptions CodecOptions::toEncodeOptions() const
 	o.wgcSharpness = sharpness;
 	o.wgcDeviation = deviation;
 	o.exact        = exact;
+	o.keepOrder    = keepOrder;
 	return o;
 }
 
@@ -126,7 +132,7 @@ std::string nameOf(const EncodeOptions& o)
 	       (o.wgc == Wgc::Off  ? "off"
 	        : o.wgc == Wgc::On ? "on"
 	                           : "auto") +
-	       (o.exact ? ", exact" : "");
+	       (o.exact ? ", exact" : "") + (o.keepOrder ? ", order kept" : "");
 }
 
 std::string messageOf(const std::string& path, const Status& status)

@@ -7,6 +7,7 @@
 
 #include "container/container.h"
 #include "entropy/range_coder.h"
+#include "finish/element_order.h"
 #include "finish/restoration.h"
 
 namespace wavemesh {
@@ -48,6 +49,7 @@ public:
 
 private:
 	Status restoration(RangeDecoder& coder, std::uint32_t digest);
+	Status order(RangeDecoder& coder, std::uint32_t digest);
 	Status exact(RangeDecoder& coder, std::uint32_t digest);
 
 	const Head& head_;
@@ -55,6 +57,7 @@ private:
 	const std::vector<LatticePoint>& positions_;
 	RestoredNumbers numbers_;
 	RestoredMesh restored_;
+	ElementOrder order_;                       ///< or empty
 	std::vector<std::array<double, 3>> exact_; ///< #V, or empty
 };
 

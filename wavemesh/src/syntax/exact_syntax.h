@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <vector>
 
 namespace wavemesh {
 
@@ -57,14 +58,60 @@ inline bool isFloat(double x)
 	return ordinalOf(double(nearestFloat(x))) == ordinalOf(x);
 }
 
+/// How numbers are written down: `wide` if some are no floats, and the decimal fraction that most
+/// of them are the nearest number to, as they are where they were text once.
+struct NumberFormat
+{
+	bool wide  = false;
+	int digits = kNone; ///< behind the decimal point, 0..14, or kNone
+
+	static constexpr int kNone = -1;
+	static constexpr int kMost = 14;
+};
+
+inline double powerOfTen(int n)
+{
+	double x = 1;
+	for (; n > 0; --n)
+		x *= 10;
+	return x; // exact up to 10^22
+}
+
+/// The number that is `count` times 10^-digits.
+inline double decimalNumber(std::int64_t count, const NumberFormat& format)
+{
+	const double x = double(count) / powerOfTen(format.digits);
+	return format.wide ? x : double(nearestFloat(x));
+}
+
+/// x in units of `unit` times 10^-digits, to the nearest; within +-2^53.
+inline std::int64_t decimalCount(double x, int digits, double unit)
+{
+	constexpr double kLargest = 9007199254740992.0;
+	if (!std::isfinite(x))
+		return 0;
+	return std::int64_t(
+	    std::clamp(std::floor(x * powerOfTen(digits) / unit + 0.5), -kLargest, kLargest));
+}
+
+/// Is x the number nearest to a decimal fraction, bit for bit?
+inline bool isDecimal(double x, const NumberFormat& format)
+{
+	return ordinalOf(decimalNumber(decimalCount(x, format.digits, 1), format)) == ordinalOf(x);
+}
+
+/// The format that takes the fewest bits where numbers are known up to `spread`.
+NumberFormat formatOf(const std::vector<std::array<double, 3>>& numbers, double spread);
+
 template <class Coder>
 class ExactSyntax
 {
 public:
-	/// @param wide  are there numbers that are no floats?
-	ExactSyntax(Coder& coder, bool wide) :
-	        coder_(coder), wide_(wide), models_(std::make_unique<Models>())
+	ExactSyntax(Coder& coder, const NumberFormat& format) :
+	        coder_(coder), format_(format), models_(std::make_unique<Models>())
 	{
+		format_.wide   = codeRaw(coder_, 1, format.wide) != 0;
+		format_.digits = int(codeRaw(coder_, 4, std::uint32_t(format.digits + 1))) - 1;
 	}
 
 	/// @param predicted  a number near `value`, rounded the same everywhere
@@ -72,12 +119,20 @@ public:
 	/// @param channel    0..2, numbers of one kind
 	double code(double predicted, double spread, std::size_t channel, double value)
 	{
-		if (wide_) {
+		if (format_.digits != NumberFormat::kNone) {
+			bool decimal = false;
+			if constexpr (!Coder::kReading)
+				decimal = isDecimal(value, format_);
+			if (codeBit(coder_, models_->decimal[channel], decimal))
+				return codeDecimal(predicted, spread, channel, value);
+		}
+		if (format_.wide) {
 			const std::int64_t from = ordinalOf(predicted);
 			const std::uint64_t reach =
 			    std::uint64_t(ordinalOf(predicted + spread)) - std::uint64_t(from);
 			const std::uint64_t difference = codeDifference(
-			    std::uint64_t(ordinalOf(value)) - std::uint64_t(from), reach, channel);
+			    std::uint64_t(ordinalOf(value)) - std::uint64_t(from), reach,
+			    models_->binary[channel]);
 			return doubleAt(std::int64_t(std::uint64_t(from) + difference));
 		}
 		// Differences of 32-bit ordinals do not wrap in 64 bits.
@@ -85,12 +140,14 @@ public:
 		const std::int64_t reach = std::int64_t(ordinalOf(nearestFloat(predicted + spread))) - from;
 		const std::int64_t to =
 		    from + std::int64_t(codeDifference(
-		               std::uint64_t(std::int64_t(ordinalOf(float(value))) - from),
-		               std::uint64_t(reach), channel));
+		               std::uint64_t(std::int64_t(ordinalOf(nearestFloat(value))) - from),
+		               std::uint64_t(reach), models_->binary[channel]));
 		return double(floatAt(std::int32_t(std::uint32_t(std::uint64_t(to)))));
 	}
 
 private:
+	static constexpr int kZeros = 4;
+
 	/// By the length of the reach: sign, length of the magnitude, and its first two bits.
 	struct Row
 	{
@@ -98,11 +155,42 @@ private:
 		std::array<AdaptiveBit, 65> length;
 		std::array<std::array<AdaptiveBit, 4>, 65> top;
 	};
-	using Models = std::array<std::array<Row, 65>, 3>;
-
-	std::uint64_t codeDifference(std::uint64_t difference, std::uint64_t reach, std::size_t channel)
+	using Rows = std::array<Row, 65>;
+	struct Models
 	{
-		Row& row = (*models_)[channel][std::size_t(bitLength(reach))];
+		std::array<Rows, 3> binary, decimals;
+		std::array<AdaptiveBit, 3> decimal;
+		std::array<std::array<AdaptiveBit, kZeros>, 65> hasZero; ///< by the prediction's length
+	};
+
+	/// The last digits are often zero, for large numbers written with as many digits as small ones.
+	double codeDecimal(double predicted, double spread, std::size_t channel, double value)
+	{
+		const auto lengthOf = [](std::int64_t x) {
+			return std::size_t(bitLength(std::uint64_t(x < 0 ? -x : x)));
+		};
+		std::int64_t count = 0;
+		if constexpr (!Coder::kReading)
+			count = decimalCount(value, format_.digits, 1);
+		auto& hasZero     = models_->hasZero[lengthOf(decimalCount(predicted, format_.digits, 1))];
+		std::int64_t unit = 1;
+		for (std::size_t i = 0; i < kZeros; ++i) {
+			if (!codeBit(coder_, hasZero[i], count % (unit * 10) == 0))
+				break;
+			unit *= 10;
+		}
+		const std::int64_t from  = decimalCount(predicted, format_.digits, double(unit));
+		const std::int64_t reach = decimalCount(spread, format_.digits, double(unit));
+		const std::uint64_t n =
+		    std::uint64_t(from) + codeDifference(
+		                              std::uint64_t(count / unit) - std::uint64_t(from),
+		                              std::uint64_t(reach), models_->decimals[channel]);
+		return decimalNumber(std::int64_t(n * std::uint64_t(unit)), format_);
+	}
+
+	std::uint64_t codeDifference(std::uint64_t difference, std::uint64_t reach, Rows& rows)
+	{
+		Row& row = rows[std::size_t(bitLength(reach))];
 		if (codeBit(coder_, row.zero, difference == 0))
 			return 0;
 		const bool negative           = codeBit(coder_, row.negative, difference >> 63 != 0);
@@ -132,7 +220,7 @@ private:
 	}
 
 	Coder& coder_;
-	bool wide_;
+	NumberFormat format_;
 	std::unique_ptr<Models> models_; ///< half a megabyte
 };
 
