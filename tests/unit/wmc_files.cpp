@@ -79,6 +79,23 @@ MeshData makeNoManifold()
 	return m;
 }
 
+MeshData withColours(MeshData m)
+{
+	Attribute colour, wedge;
+	colour.kind       = AttributeKind::Colour;
+	colour.type       = NumberType::Integer;
+	colour.components = 3;
+	wedge.of          = AttributeOf::Corner;
+	wedge.name        = "w";
+	for (std::size_t i = 0; i < 3 * m.positions.size(); ++i)
+		colour.values.push_back(double(i * 7 % 256));
+	for (std::size_t i = 0; i < 3 * m.triangles.size(); ++i)
+		wedge.values.push_back(double(i % 5) / 4);
+	m.attributes = {colour, wedge};
+	m.textures   = {"t"};
+	return m;
+}
+
 } // namespace
 
 std::vector<SmallFile> smallFiles()
@@ -103,6 +120,7 @@ std::vector<SmallFile> smallFiles()
 	    {"no_manifold", makeNoManifold(), 6, 0, Wgc::Off},
 	    {"order_and_exact", makeFlippedSphere(20, 6), 5, 0, Wgc::Off, true, true},
 	    {"every_promise", makeNoManifold(), 6, kLiftingOff, Wgc::Off, true, true},
+	    {"attributes", withColours(makeGrid(4, 3)), 6, kLiftingOff, Wgc::Off},
 	    {"several_chunks", makeFlippedSphere(110, 15), 12, kLiftingOff, Wgc::Off},
 	};
 	std::vector<SmallFile> files;

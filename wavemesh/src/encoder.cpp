@@ -170,7 +170,7 @@ Result<EncodedMesh> encodeOnce(
 	head.wgc      = wgc;
 	head.lattice  = mesh.lattice;
 	head.digest   = digestOf(levels.finest, positions);
-	head.features = featuresFor(options, mesh.cut);
+	head.features = featuresFor(options, original, mesh.cut);
 
 	const std::size_t splits       = levels.levels.size();
 	const bool glued               = head.has(kRestoration);
@@ -197,6 +197,11 @@ Result<EncodedMesh> encodeOnce(
 		if (!stage(0.7 - 0.2 * double(i + 1) / double(splits)))
 			return cancelled();
 	}
+
+	std::vector<std::array<Index, 3>> parents; // of all vertices but the base mesh's
+	if (head.has(kAttributes))
+		for (const AnalysedLevel& a : analysed)
+			parents.insert(parents.end(), a.parents.begin(), a.parents.end());
 
 	// Code, from the base up; each level is synthesised on the way, as the decoder does.
 	std::vector<std::uint8_t> chunks;
@@ -238,7 +243,8 @@ Result<EncodedMesh> encodeOnce(
 			return cancelled();
 	}
 
-	writeFinish({original, mesh.cut, levels.finest, positions, levels.source, glue}, head, chunks);
+	writeFinish(
+	    {original, mesh.cut, levels.finest, positions, levels.source, glue, parents}, head, chunks);
 
 	EncodedMesh out;
 	writeHead(head, out.bytes);
@@ -259,6 +265,8 @@ Result<EncodedMesh> encodeMesh(const MeshData& mesh, const EncodeOptions& option
 	const auto lattice = makeLattice(finite, options.bits, options.step);
 	if (!lattice.ok())
 		return lattice.status();
+	if (Status s = checkAttributes(mesh); !s.ok())
+		return s;
 	auto cut = cutToManifold(mesh.triangles, Index(mesh.positions.size()));
 	if (!cut.ok())
 		return cut.status();

@@ -72,7 +72,7 @@ void codeExact(
 	NumberFormat format;
 	if constexpr (!Coder::kReading)
 		format = formatOf(values, lattice.step);
-	ExactSyntax<Coder> syntax(coder, format);
+	ExactSyntax<Coder> syntax(coder, format, 3);
 	values.resize(points.size());
 	for (std::size_t v = 0; v < points.size() && !coder.exhausted(); ++v) {
 		const auto predicted = lattice.position(points[v]);
@@ -88,11 +88,13 @@ Status wrongDigest(const char* what)
 
 } // namespace
 
-std::uint8_t featuresFor(const EncodeOptions& options, const ManifoldCut& cut)
+std::uint8_t
+featuresFor(const EncodeOptions& options, const MeshData& original, const ManifoldCut& cut)
 {
+	const bool attributes = !original.attributes.empty() || !original.textures.empty();
 	return std::uint8_t(
 	    (cut.changed() ? 1 << kRestoration : 0) | (options.keepOrder ? 1 << kOrder : 0) |
-	    (options.exact ? 1 << kExact : 0));
+	    (options.exact ? 1 << kExact : 0) | (attributes ? 1 << kAttributes : 0));
 }
 
 void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>& chunks)
@@ -129,6 +131,18 @@ void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>
 			codeExact(coder, head.lattice, restored.points, values);
 		});
 	}
+	if (head.has(kAttributes)) {
+		std::vector<Index> originalVertex;
+		for (const Index v : from.source)
+			originalVertex.push_back(from.cut.vertex[v]);
+		head.attributeWidths = attributeWidths(from.original.attributes);
+		const auto payload   = writeAttributes(
+		      {from.original, from.finest, originalVertex, from.parents, from.glue, restored, source,
+		       orderOf(from.original.triangles, restored, source)},
+		      head.rows);
+		head.featureBytes[kAttributes] = payload.size();
+		writeChunk(kFeatureChunk[kAttributes], payload, chunks);
+	}
 }
 
 Finish::Finish(
@@ -142,8 +156,14 @@ Finish::Finish(
 {
 }
 
-Status Finish::apply(Feature feature, const std::uint8_t* payload, std::size_t size)
+Status Finish::apply(
+    Feature feature, const std::uint8_t* payload, std::size_t size, AttributeReader* attributes)
 {
+	if (feature == kAttributes) {
+		attributes_ = attributes;
+		return attributes ? attributes->finish(restored_, finest_, numbers_)
+		                  : Status(StatusCode::Corrupt, "the attributes are not in their place");
+	}
 	ByteReader in(payload, size);
 	std::uint32_t digest = 0;
 	in.fixed(digest);
@@ -200,9 +220,14 @@ MeshData Finish::mesh() const
 	if (exact_.empty())
 		for (const LatticePoint& p : restored_.points)
 			out.positions.push_back(head_.lattice.position(p));
+	if (attributes_) {
+		out.attributes = attributes_->attributes();
+		out.textures   = attributes_->textures();
+	}
 	if (!order_.empty()) {
-		out.triangles = inOrder(out.triangles, order_);
-		out.positions = inOrder(out.positions, order_);
+		out.attributes = inOrder(std::move(out.attributes), order_);
+		out.triangles  = inOrder(out.triangles, order_);
+		out.positions  = inOrder(out.positions, order_);
 	}
 	return out;
 }

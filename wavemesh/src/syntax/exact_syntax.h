@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <vector>
 
 namespace wavemesh {
@@ -107,8 +106,9 @@ template <class Coder>
 class ExactSyntax
 {
 public:
-	ExactSyntax(Coder& coder, const NumberFormat& format) :
-	        coder_(coder), format_(format), models_(std::make_unique<Models>())
+	/// @param channels  kinds of numbers
+	ExactSyntax(Coder& coder, const NumberFormat& format, std::size_t channels) :
+	        coder_(coder), format_(format), models_(channels)
 	{
 		format_.wide   = codeRaw(coder_, 1, format.wide) != 0;
 		format_.digits = int(codeRaw(coder_, 4, std::uint32_t(format.digits + 1))) - 1;
@@ -116,14 +116,14 @@ public:
 
 	/// @param predicted  a number near `value`, rounded the same everywhere
 	/// @param spread     by how much the value may well be away, >= 0
-	/// @param channel    0..2, numbers of one kind
+	/// @param channel    below `channels`, numbers of one kind
 	double code(double predicted, double spread, std::size_t channel, double value)
 	{
 		if (format_.digits != NumberFormat::kNone) {
 			bool decimal = false;
 			if constexpr (!Coder::kReading)
 				decimal = isDecimal(value, format_);
-			if (codeBit(coder_, models_->decimal[channel], decimal))
+			if (codeBit(coder_, models_[channel].decimal, decimal))
 				return codeDecimal(predicted, spread, channel, value);
 		}
 		if (format_.wide) {
@@ -132,7 +132,7 @@ public:
 			    std::uint64_t(ordinalOf(predicted + spread)) - std::uint64_t(from);
 			const std::uint64_t difference = codeDifference(
 			    std::uint64_t(ordinalOf(value)) - std::uint64_t(from), reach,
-			    models_->binary[channel]);
+			    models_[channel].binary);
 			return doubleAt(std::int64_t(std::uint64_t(from) + difference));
 		}
 		// Differences of 32-bit ordinals do not wrap in 64 bits.
@@ -141,25 +141,29 @@ public:
 		const std::int64_t to =
 		    from + std::int64_t(codeDifference(
 		               std::uint64_t(std::int64_t(ordinalOf(nearestFloat(value))) - from),
-		               std::uint64_t(reach), models_->binary[channel]));
+		               std::uint64_t(reach), models_[channel].binary));
 		return double(floatAt(std::int32_t(std::uint32_t(std::uint64_t(to)))));
 	}
 
 private:
 	static constexpr int kZeros = 4;
 
-	/// By the length of the reach: sign, length of the magnitude, and its first two bits.
-	struct Row
+	/// By the length of the reach: sign and length of the magnitude; by how these differ, its first
+	/// two bits.
+	struct Rows
 	{
-		AdaptiveBit zero, negative;
-		std::array<AdaptiveBit, 65> length;
-		std::array<std::array<AdaptiveBit, 4>, 65> top;
+		struct Row
+		{
+			AdaptiveBit zero, negative;
+			std::array<AdaptiveBit, 64> length;
+		};
+		std::array<Row, 65> row;
+		std::array<std::array<AdaptiveBit, 4>, 5> top;
 	};
-	using Rows = std::array<Row, 65>;
 	struct Models
 	{
-		std::array<Rows, 3> binary, decimals;
-		std::array<AdaptiveBit, 3> decimal;
+		Rows binary, decimals;
+		AdaptiveBit decimal;
 		std::array<std::array<AdaptiveBit, kZeros>, 65> hasZero; ///< by the prediction's length
 	};
 
@@ -172,9 +176,10 @@ private:
 		std::int64_t count = 0;
 		if constexpr (!Coder::kReading)
 			count = decimalCount(value, format_.digits, 1);
-		auto& hasZero     = models_->hasZero[lengthOf(decimalCount(predicted, format_.digits, 1))];
+		auto& hasZero =
+		    models_[channel].hasZero[lengthOf(decimalCount(predicted, format_.digits, 1))];
 		std::int64_t unit = 1;
-		for (std::size_t i = 0; i < kZeros; ++i) {
+		for (std::size_t i = 0; i < kZeros && format_.digits > 0; ++i) {
 			if (!codeBit(coder_, hasZero[i], count % (unit * 10) == 0))
 				break;
 			unit *= 10;
@@ -184,33 +189,36 @@ private:
 		const std::uint64_t n =
 		    std::uint64_t(from) + codeDifference(
 		                              std::uint64_t(count / unit) - std::uint64_t(from),
-		                              std::uint64_t(reach), models_->decimals[channel]);
+		                              std::uint64_t(reach), models_[channel].decimals);
 		return decimalNumber(std::int64_t(n * std::uint64_t(unit)), format_);
 	}
 
 	std::uint64_t codeDifference(std::uint64_t difference, std::uint64_t reach, Rows& rows)
 	{
-		Row& row = rows[std::size_t(bitLength(reach))];
+		const int length = bitLength(reach);
+		auto& row        = rows.row[std::size_t(length)];
 		if (codeBit(coder_, row.zero, difference == 0))
 			return 0;
-		const bool negative           = codeBit(coder_, row.negative, difference >> 63 != 0);
-		const std::uint64_t magnitude = negative ? ~difference : difference - 1;
-		return negative ? ~codeMagnitude(row, magnitude) : codeMagnitude(row, magnitude) + 1;
+		const bool negative     = codeBit(coder_, row.negative, difference >> 63 != 0);
+		std::uint64_t magnitude = negative ? ~difference : difference - 1;
+		const int wanted        = bitLength(magnitude);
+		int n                   = 0;
+		while (n < 64 && codeBit(coder_, row.length[std::size_t(n)], n < wanted))
+			++n;
+		magnitude =
+		    codeDigits(n, magnitude, rows.top[std::size_t(std::clamp(length - n + 2, 0, 4))]);
+		return negative ? ~magnitude : magnitude + 1;
 	}
 
-	std::uint64_t codeMagnitude(Row& row, std::uint64_t magnitude)
+	/// A number of n binary digits.
+	std::uint64_t codeDigits(int n, std::uint64_t value, std::array<AdaptiveBit, 4>& top)
 	{
-		const int wanted = bitLength(magnitude);
-		int length       = 0;
-		while (length < 64 && codeBit(coder_, row.length[std::size_t(length)], length < wanted))
-			++length;
-		if (length <= 1)
-			return std::uint64_t(length);
+		if (n <= 1)
+			return std::uint64_t(n);
 		std::uint64_t out = 1;
-		for (int i = length - 2; i >= 0; --i) {
-			const bool bit = (magnitude >> i) & 1;
-			const int done = length - 2 - i;
-			auto& top      = row.top[std::size_t(length)];
+		for (int i = n - 2; i >= 0; --i) {
+			const bool bit = (value >> i) & 1;
+			const int done = n - 2 - i;
 			out            = (out << 1) |
 			      std::uint64_t(
 			          done < 2 ? codeBit(coder_, top[std::size_t(done == 0 ? 0 : out)], bit)
@@ -221,7 +229,7 @@ private:
 
 	Coder& coder_;
 	NumberFormat format_;
-	std::unique_ptr<Models> models_; ///< half a megabyte
+	std::vector<Models> models_; ///< by channel; 40 kB each
 };
 
 } // namespace wavemesh
