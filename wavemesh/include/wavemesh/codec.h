@@ -122,6 +122,7 @@ struct StreamFeatures
 	std::uint64_t orderBytes       = 0;
 	std::uint64_t exactBytes       = 0;
 	std::uint64_t attributeBytes   = 0;
+	std::uint64_t attributeValues  = 0; ///< numbers in all attributes
 };
 
 /// What the head of a file tells.
@@ -167,8 +168,9 @@ Result<EncodedMesh> encode(const MeshData& mesh, const EncodeOptions& options = 
 /// What a decoder may spend. A file that declares more is refused before the memory is taken.
 struct DecodeLimits
 {
-	std::uint64_t maxVertices = 200'000'000;
-	std::uint64_t maxFaces    = 400'000'000;
+	std::uint64_t maxVertices        = 200'000'000;
+	std::uint64_t maxFaces           = 400'000'000;
+	std::uint64_t maxAttributeValues = 2'000'000'000; ///< numbers in all attributes together
 };
 
 constexpr int kFinestLevel = -1;
