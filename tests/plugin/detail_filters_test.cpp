@@ -43,9 +43,10 @@ struct Everything
 	}
 };
 
+/// Of whole details, in all bands.
 MeshLabHost::Settings gains(double gain)
 {
-	MeshLabHost::Settings settings;
+	MeshLabHost::Settings settings {{"normal_only", "false"}};
 	for (int band = 1; band <= 5; ++band)
 		settings[QString("band_%1").arg(band)] = QString::number(gain);
 	return settings;
@@ -188,7 +189,7 @@ TEST(EqualiseDetail, GainsByLevelAreThoseOfTheirBands)
 	for (int level = 1; level <= finest; ++level)
 		all << "0.5";
 	MeshModel& other = *host.open(sample("pretzel.ply")).front();
-	host.apply(kEqualise, {{"gains", all.join(", ")}});
+	host.apply(kEqualise, {{"gains", all.join(", ")}, {"normal_only", "false"}});
 	EXPECT_EQ(Everything(other.cm).coordinates, byBands.coordinates);
 	EXPECT_NE(messageOf([&] { host.apply(kEqualise, {{"gains", "1, x"}}); }), QString());
 }
