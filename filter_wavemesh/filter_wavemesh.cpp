@@ -27,8 +27,10 @@ namespace {
 EncodeOptions browsingOptions()
 {
 	EncodeOptions options;
-	options.bits = 16;
-	options.wgc  = Wgc::On;
+	options.mode     = Mode::Classic;
+	options.bits     = 16;
+	options.optimize = Optimize::Levels;
+	options.effort   = 1;
 	return options;
 }
 

@@ -26,6 +26,8 @@ QString meaningOf(const std::string& name)
 		return "lifting";
 	if (name == "III")
 		return "lifting and WGC";
+	if (name == "compact")
+		return "not in the paper";
 	return {};
 }
 

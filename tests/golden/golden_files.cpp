@@ -49,13 +49,14 @@ std::string indexLine(const Golden& g)
 
 namespace {
 
-Bytes fileOf(const MeshData& mesh, int bits, int lifting, Wgc wgc, double step = 0)
+Bytes fileOf(const MeshData& mesh, int bits, int lifting, Wgc wgc, double step = 0, int effort = 2)
 {
 	EncodeOptions o;
 	o.bits    = bits;
 	o.lifting = lifting;
 	o.wgc     = wgc;
 	o.step    = step;
+	o.effort  = effort;
 	return encode(mesh, o).value().bytes;
 }
 
@@ -68,6 +69,8 @@ std::vector<Golden> goodOnes()
 	add("triangle_1_bit", fileOf(makeTriangle(), 1, kLiftingOff, Wgc::Off));
 	add("tetrahedron_step", fileOf(makeTetrahedron(), 12, 0, Wgc::Off, 0.1));
 	add("sphere_lazy", fileOf(makeBumpySphere(160, 1), 12, kLiftingOff, Wgc::Off));
+	add("sphere_fast", fileOf(makeBumpySphere(160, 1), 12, kLiftingOff, Wgc::Off, 0, 1));
+	add("plate_fast", fileOf(makeHoledPlate(2, 2), 10, 0, Wgc::Off, 0, 1));
 	add("sphere_lifted_0", fileOf(makeBumpySphere(160, 1), 12, 0, Wgc::Off));
 	add("sphere_lifted_1", fileOf(makeBumpySphere(160, 1), 12, 1, Wgc::Off));
 	add("sphere_lifted_2", fileOf(makeBumpySphere(160, 1), 12, 2, Wgc::Off));
@@ -124,8 +127,8 @@ std::vector<Golden> badOnes()
 	text.erase(text.begin() + 4); // the carriage return
 	add("text_mode", text, StatusCode::Corrupt);
 	add("newer_major", mended(0, 0, 1), StatusCode::VersionTooNew);
-	add("bits_0", mended(0, 3, 0), StatusCode::Corrupt);
-	add("bits_25", mended(0, 3, 25), StatusCode::Corrupt);
+	add("bits_0", mended(0, 4, 0), StatusCode::Corrupt);
+	add("bits_25", mended(0, 4, 25), StatusCode::Corrupt);
 	add("unknown_mode", mended(0, 2, 7), StatusCode::Corrupt);
 	add("cut_in_magic", cutAt(file, 5), StatusCode::Truncated);
 	add("cut_in_head", cutAt(file, chunks[0].checksum - 1), StatusCode::Truncated);

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inverse irregular subdivision, one step and all of them.
 #include "mesh_check.h"
+#include "multires/quadrics.h"
+#include "multires/refine.h"
 #include "stage_meshes.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace wavemesh::test {
 namespace {
-
-std::vector<LatticePoint>
-pickedPositions(const std::vector<LatticePoint>& fine, const std::vector<Index>& rows)
-{
-	std::vector<LatticePoint> out;
-	for (const Index v : rows)
-		out.push_back(fine[v]);
-	return out;
-}
 
 /// Every fine vertex is kept, or is the child of one coarse edge, or the centre of one coarse face.
 std::string whatIsNotAccountedFor(const Coarsening& c, Index fineVertices)
@@ -63,15 +57,19 @@ std::string whatRefineDoesNotUndo(const Coarsening& step, const CornerTable& fin
 }
 
 /// Coarsens to the end; empty if every step keeps what a step must keep.
-std::string whatAStepBreaks(const MeshData& mesh, const GeometricalCriterion& criterion)
+/// @param share  ErrorCriterion::share; 0: not active
+std::string
+whatAStepBreaks(const MeshData& mesh, const GeometricalCriterion& criterion, double share = 0)
 {
 	Topology expected;
 	if (std::string s = whatIsNotManifold(mesh, &expected); !s.empty())
 		return s;
 	StageMesh level = stageMesh(mesh);
+	Quadrics quadrics(level.table, level.positions);
 	for (int depth = 0;; ++depth) {
 		const std::string where = "step " + std::to_string(depth) + ": ";
-		const Coarsening step   = coarsen(level.table, level.positions, criterion);
+		const Coarsening step   = coarsen(
+		      level.table, level.positions, criterion, {share > 0 ? &quadrics : nullptr, share});
 		Topology found;
 		if (std::string s = whatIsNotManifold(meshOf(step.coarse, {}), &found); !s.empty())
 			return where + s;
@@ -88,6 +86,7 @@ std::string whatAStepBreaks(const MeshData& mesh, const GeometricalCriterion& cr
 			return sortedFaces(facesOf(step.coarse)) == sortedFaces(facesOf(level.table))
 			           ? ""
 			           : where + "nothing was merged, but the faces are others";
+		quadrics.carry(step, level.positions);
 		level.positions = pickedPositions(level.positions, step.fineVertex);
 		level.table     = step.coarse;
 	}
@@ -108,16 +107,25 @@ TEST_P(CoarsenFamily, EveryStepUnderTheGeometricalCriterion_IsManifoldAndRefineU
 	EXPECT_EQ(whatAStepBreaks(GetParam().mesh, {true, 0.05, 0.02}), "");
 }
 
+TEST_P(CoarsenFamily, EveryStepByItsError_IsManifoldAndRefineUndoesIt)
+{
+	EXPECT_EQ(whatAStepBreaks(GetParam().mesh, {}, 0.5), "");
+	EXPECT_EQ(whatAStepBreaks(GetParam().mesh, {}, 0.9), "");
+}
+
 TEST_P(CoarsenFamily, ClosedGenus0_EndsAtTenVerticesOrFewer)
 {
 	Topology t;
 	ASSERT_EQ(whatIsNotManifold(GetParam().mesh, &t), "");
 	if (t.boundaryLoops != 0 || t.genus != 0)
 		return;
-	const Levels levels = makeLevels(GetParam().mesh);
-	const CornerTable& base =
-	    levels.replay.levels.empty() ? levels.replay.finest : levels.replay.levels.front().parent;
-	EXPECT_LE(base.vertexCount, 10 * t.components);
+	for (const Steering& steering :
+	     {Steering {}, Steering {1, 0.65, 0.5}, Steering {0, 0.4, 0.4}}) {
+		const Levels levels = makeLevels(GetParam().mesh, {}, 12, steering);
+		const CornerTable& base =
+		    levels.replay.levels.empty() ? levels.replay.finest : levels.replay.levels[0].parent;
+		EXPECT_LE(base.vertexCount, 10 * t.components) << steering.freeSteps;
+	}
 }
 
 TEST_P(CoarsenFamily, ReplayFromTheBase_EndsWithTheOriginal)
@@ -223,6 +231,63 @@ TEST(Coarsen, UndoesRegularSubdivision)
 	EXPECT_EQ(coarse.coarse.vertexCount, 10u * 4 * 4 + 2) << "4:1 everywhere";
 }
 
+/// Two tori in one: all vertices have six neighbours but the three at the seam, which have ten.
+MeshData makeDoubleTorus()
+{
+	MeshData mesh   = makeTorus(5, 5);
+	const auto one  = mesh;
+	const auto many = static_cast<std::uint32_t>(one.positions.size());
+	const auto seam = one.triangles[0];
+	mesh            = joined({one, moved(one, 9, 0, 0)});
+	mesh.triangles.erase(
+	    mesh.triangles.begin() + static_cast<std::ptrdiff_t>(one.triangles.size()));
+	mesh.triangles.erase(mesh.triangles.begin());
+	// The second one's seam, turned round, becomes the first one's; the gaps close behind it.
+	std::vector<std::uint32_t> name(2 * many);
+	std::iota(name.begin(), name.end(), 0u);
+	const std::uint32_t at[3] = {seam[0], seam[2], seam[1]};
+	std::vector<std::array<double, 3>> positions(
+	    mesh.positions.begin(), mesh.positions.begin() + many);
+	for (std::uint32_t v = 0; v < many; ++v) {
+		const auto k = std::find(seam.begin(), seam.end(), v) - seam.begin();
+		if (k < 3)
+			name[many + v] = at[k];
+		else {
+			name[many + v] = static_cast<std::uint32_t>(positions.size());
+			positions.push_back(mesh.positions[many + v]);
+		}
+	}
+	for (auto& t : mesh.triangles)
+		for (auto& v : t)
+			v = name[v];
+	mesh.positions = positions;
+	return mesh;
+}
+
+TEST(Coarsen, UndoesRegularSubdivisionWhereAllExtraordinaryVerticesAreHubs)
+{
+	const StageMesh coarse = stageMesh(makeDoubleTorus());
+	Refinement all;
+	all.parentVertices = all.childVertices = coarse.table.vertexCount;
+	all.childOnEdge.assign(coarse.table.cornerCount(), kNone);
+	all.faceCode.assign(coarse.table.faceCount(), kFaceNone);
+	for (Index c = 0; c < coarse.table.cornerCount(); ++c) {
+		const Index d      = coarse.table.opposite[c];
+		all.childOnEdge[c] = d < c ? all.childOnEdge[d] : all.childVertices++;
+	}
+	const CornerTable fine = refine(coarse.table, all);
+	const MeshData mesh    = meshOf(fine, std::vector<LatticePoint>(fine.vertexCount));
+	for (const std::uint64_t seed : {61u, 62u, 63u}) {
+		const auto shuffledFine =
+		    buildCornerTable(shuffled(mesh, seed).triangles, fine.vertexCount);
+		ASSERT_TRUE(shuffledFine.ok());
+		const std::vector<LatticePoint> positions(fine.vertexCount);
+		EXPECT_EQ(
+		    coarsen(*shuffledFine, positions, {}).coarse.vertexCount, coarse.table.vertexCount)
+		    << "4:1 everywhere, seed " << seed;
+	}
+}
+
 TEST(Coarsen, ShrinksIrregularMeshesByNearlyTwoOnAverage)
 {
 	for (const MeshData& mesh : {makeBumpySphere(2500, 51), makeTerrain(2500, 52)}) {
@@ -248,7 +313,7 @@ TEST(CoarsenAll, StopsWhenAsked)
 	const StageMesh fine = stageMesh(makeIcosphere(15));
 	int calls            = 0;
 	const auto steps =
-	    coarsenAll(fine.table, fine.positions, {}, [&](double) { return ++calls < 2; });
+	    coarsenAll(fine.table, fine.positions, {}, {}, [&](double) { return ++calls < 2; });
 	EXPECT_EQ(calls, 2);
 	EXPECT_EQ(steps.size(), 2u);
 }

@@ -107,10 +107,13 @@ std::string whatIsWrongWithLevels(const MeshData& original, const std::vector<st
 
 std::string nameOf(const EncodeOptions& o)
 {
-	const char* wgc[] = {"off", "on", "auto"};
+	const char* wgc[]      = {"off", "on", "auto"};
+	const char* optimize[] = {"size", "balanced", "levels"};
 	return (o.step > 0 ? "step " + std::to_string(o.step) : std::to_string(o.bits) + " bits") +
 	       ", lifting " + (o.lifting == kLiftingOff ? "off" : std::to_string(o.lifting)) +
-	       ", wgc " + wgc[static_cast<std::size_t>(o.wgc)];
+	       ", wgc " + wgc[static_cast<std::size_t>(o.wgc)] + ", optimize " +
+	       optimize[static_cast<std::size_t>(o.optimize)] + ", effort " + std::to_string(o.effort) +
+	       (o.mode == Mode::Classic ? ", classic" : ", compact");
 }
 
 namespace {

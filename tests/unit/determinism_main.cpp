@@ -38,8 +38,8 @@ bool print(const char* name, const MeshData& mesh, const EncodeOptions& o)
 	if (!back.ok())
 		return false;
 	std::printf(
-	    "%s bits %d lifting %d wgc %d: %zu bytes %016llx mesh %016llx\n", name, o.bits, o.lifting,
-	    int(o.wgc), file->bytes.size(),
+	    "%s bits %d lifting %d wgc %d optimize %d: %zu bytes %016llx mesh %016llx\n", name, o.bits,
+	    o.lifting, int(o.wgc), int(o.optimize), file->bytes.size(),
 	    static_cast<unsigned long long>(hashOf(file->bytes.data(), file->bytes.size())),
 	    static_cast<unsigned long long>(hashOf(back->mesh)));
 	return true;
@@ -60,9 +60,14 @@ int main()
 	for (const auto& m : meshes)
 		for (int lifting = kLiftingOff; lifting <= 2; ++lifting) {
 			EncodeOptions o;
-			o.bits    = 12 + 2 * lifting;
-			o.lifting = lifting;
-			o.wgc     = lifting == kLiftingOff ? Wgc::Off : Wgc::On;
+			o.bits     = 12 + 2 * lifting;
+			o.lifting  = lifting;
+			o.wgc      = lifting == kLiftingOff ? Wgc::Off : Wgc::On;
+			o.optimize = lifting % 2 == 0 ? Optimize::Size
+			             : lifting == 1   ? Optimize::Balanced
+			                              : Optimize::Levels;
+			o.effort   = lifting == 0 ? 1 : 2;
+			o.mode     = lifting == 1 ? Mode::Compact : Mode::Classic;
 			if (!print(m.name.c_str(), m.mesh, o))
 				return 1;
 		}

@@ -43,6 +43,8 @@ TEST(Multiresolution, HasTheLevelsThatTheEncoderMakes)
 			EncodeOptions options;
 			options.bits       = 20;
 			options.wgc        = wgc;
+			options.mode       = Mode::Classic;
+			options.optimize   = Optimize::Size;
 			const auto encoded = encode(m.mesh, options);
 			ASSERT_TRUE(encoded.ok());
 			const Multiresolution levels = levelsOfMesh(m.mesh, 0, wgc);

@@ -10,20 +10,24 @@
 namespace wavemesh::test {
 namespace {
 
-constexpr int kBits[]    = {1, 8, 10, 12, 16, 20, 24};
-constexpr int kLifting[] = {kLiftingOff, 0, 1, 2};
-constexpr Wgc kWgc[]     = {Wgc::Off, Wgc::On, Wgc::Auto};
+constexpr int kBits[]          = {1, 8, 10, 12, 16, 20, 24};
+constexpr int kLifting[]       = {kLiftingOff, 0, 1, 2};
+constexpr Wgc kWgc[]           = {Wgc::Off, Wgc::On, Wgc::Auto};
+constexpr Optimize kOptimize[] = {Optimize::Size, Optimize::Balanced, Optimize::Levels};
 
-/// Every pair of bits and lifting, and among any three of these in a row every WGC.
+/// Every pair of bits and lifting, and among any three of these in a row every WGC and every aim.
 std::vector<EncodeOptions> everyPairOfOptions()
 {
 	std::vector<EncodeOptions> all;
 	for (int bits : kBits)
 		for (int lifting : kLifting) {
 			EncodeOptions o;
-			o.bits    = bits;
-			o.lifting = lifting;
-			o.wgc     = kWgc[all.size() % 3];
+			o.bits     = bits;
+			o.lifting  = lifting;
+			o.wgc      = kWgc[all.size() % 3];
+			o.optimize = kOptimize[(all.size() + all.size() / 3) % 3];
+			o.effort   = 1 + static_cast<int>(all.size() / 2 % 3);
+			o.mode     = all.size() % 2 == 0 ? Mode::Compact : Mode::Classic;
 			all.push_back(o);
 		}
 	return all;
@@ -72,13 +76,15 @@ TEST(RoundTrip, EveryCombinationOfOptionsIsLossless)
 	const MeshData mesh = joined({makeFlippedSphere(150, 71), makeTerrain(100, 72)});
 	for (int bits : kBits)
 		for (int lifting : kLifting)
-			for (Wgc wgc : kWgc) {
-				EncodeOptions o;
-				o.bits    = bits;
-				o.lifting = lifting;
-				o.wgc     = wgc;
-				ASSERT_EQ(whatFails(mesh, o, false), "") << nameOf(o);
-			}
+			for (Wgc wgc : kWgc)
+				for (Optimize optimize : kOptimize) {
+					EncodeOptions o;
+					o.bits     = bits;
+					o.lifting  = lifting;
+					o.wgc      = wgc;
+					o.optimize = optimize;
+					ASSERT_EQ(whatFails(mesh, o, false), "") << nameOf(o);
+				}
 }
 
 TEST(RoundTrip, StepInModelUnitsIsKept)

@@ -29,6 +29,15 @@ MeshData meshOf(const CornerTable& table, const std::vector<LatticePoint>& posit
 	return m;
 }
 
+std::vector<LatticePoint>
+pickedPositions(const std::vector<LatticePoint>& fine, const std::vector<Index>& rows)
+{
+	std::vector<LatticePoint> out;
+	for (const Index v : rows)
+		out.push_back(fine[v]);
+	return out;
+}
+
 std::vector<Triangle> facesOf(const CornerTable& table)
 {
 	std::vector<Triangle> faces;
@@ -62,11 +71,12 @@ std::string whatIsNotLinked(const CornerTable& t)
 	return {};
 }
 
-Levels makeLevels(const MeshData& mesh, const GeometricalCriterion& criterion, int bits)
+Levels makeLevels(
+    const MeshData& mesh, const GeometricalCriterion& criterion, int bits, const Steering& steering)
 {
 	const StageMesh fine = stageMesh(mesh, bits);
 	const auto steps =
-	    coarsenAll(fine.table, fine.positions, criterion, [](double) { return true; });
+	    coarsenAll(fine.table, fine.positions, criterion, steering, [](double) { return true; });
 	BaseMesh base;
 	base.table = steps.empty() ? fine.table : steps.back().coarse;
 	base.positions.resize(base.table.vertexCount);

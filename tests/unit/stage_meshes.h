@@ -23,6 +23,10 @@ StageMesh stageMesh(const MeshData& mesh, int bits = 12);
 /// Plain arrays again; lattice units.
 MeshData meshOf(const CornerTable& table, const std::vector<LatticePoint>& positions);
 
+/// Positions of the rows named.
+std::vector<LatticePoint>
+pickedPositions(const std::vector<LatticePoint>& fine, const std::vector<Index>& rows);
+
 using Triangle = std::array<std::uint32_t, 3>;
 /// Triangles, each begun at its smallest index, sorted: equal exactly if the oriented faces are.
 std::vector<Triangle> sortedFaces(std::vector<Triangle> faces);
@@ -38,7 +42,11 @@ struct Levels
 	Replay replay;
 	std::vector<LatticePoint> positions; ///< of the finest level; a prefix is a coarser one
 };
-Levels makeLevels(const MeshData& mesh, const GeometricalCriterion& criterion = {}, int bits = 12);
+Levels makeLevels(
+    const MeshData& mesh,
+    const GeometricalCriterion& criterion = {},
+    int bits                              = 12,
+    const Steering& steering              = {});
 
 /// Splits, diagonals, flips and centres thrown at random; valid for refine().
 Refinement randomRefinement(const CornerTable& parent, Rng& rng, bool flips = true);

@@ -100,9 +100,11 @@ std::vector<LatticePoint> latticeNoise(Index count, Rng& rng)
 TEST(ConnectivitySyntax, AnyRefinement_ComesBack)
 {
 	Rng rng(102);
+	int number = 0;
 	for (const NamedMesh& m : smallFamilies(200)) {
-		const StageMesh parent = stageMesh(m.mesh);
-		ConnectivityModels writeModels, readModels;
+		const StageMesh parent  = stageMesh(m.mesh);
+		const Contexts contexts = ++number % 2 == 0 ? Contexts::Fast : Contexts::Rich;
+		ConnectivityModels writeModels(contexts), readModels(contexts);
 		RangeEncoder encoder;
 		std::vector<Refinement> all;
 		for (int i = 0; i < 5; ++i) {
@@ -136,7 +138,7 @@ TEST(ConnectivitySyntax, OfRandomBytes_IsARefinementThatRefineCanDo)
 			for (auto& b : noise)
 				b = static_cast<std::uint8_t>(rng.next());
 			RangeDecoder decoder(noise.data(), noise.size());
-			ConnectivityModels models;
+			ConnectivityModels models(round % 2 == 0 ? Contexts::Fast : Contexts::Rich);
 			Refinement r;
 			ConnectivitySyntax<RangeDecoder>(decoder, models, parent.table, parent.positions)
 			    .code(r);

@@ -22,12 +22,16 @@ std::vector<Configuration> comparedConfigurations(const EncodeOptions& base)
 	std::vector<Configuration> all;
 	const auto add = [&](const char* name, int lifting, Wgc wgc) {
 		all.push_back({name, base});
-		all.back().options.lifting = lifting;
-		all.back().options.wgc     = wgc;
+		all.back().options.mode     = Mode::Classic;
+		all.back().options.lifting  = lifting;
+		all.back().options.wgc      = wgc;
+		all.back().options.optimize = Optimize::Size; // as in the paper
 	};
 	add("I", kLiftingOff, Wgc::Off);
 	add("II", disc, Wgc::Off);
 	add("III", disc, Wgc::On);
+	all.push_back({"compact", base});
+	all.back().options.mode = Mode::Compact;
 	return all;
 }
 
@@ -94,6 +98,8 @@ std::string nameOf(LevelKind kind)
 		return "base";
 	case LevelKind::Split:
 		return "split";
+	case LevelKind::Precise:
+		return "precise";
 	}
 	return "unknown";
 }

@@ -20,7 +20,7 @@ struct Configuration
 };
 
 /// The configurations that a report compares, in order: the paper's I (lazy), II (lifting) and III
-/// (lifting and WGC). A further mode of the codec is one more entry here.
+/// (lifting and WGC), and the compact mode.
 /// @param base  all other options; its lifting gives the k of II and III (0 if it is off)
 std::vector<Configuration> comparedConfigurations(const EncodeOptions& base);
 
@@ -48,7 +48,7 @@ const SurfaceDistance* bestWithin(const Curve& curve, double bpv);
 /// Bits per vertex of the first level with an RMS of at most `rms`; negative if there is none.
 double rateFor(const Curve& curve, double rms);
 
-std::string nameOf(LevelKind kind); ///< base, split
+std::string nameOf(LevelKind kind); ///< base, split, precise
 
 /// A table for other programs: one line of names, then one for each level of each curve. `rms` and
 /// `max` are fractions of the diagonal, `rms_units` and `max_units` model units.

@@ -38,22 +38,45 @@ void CodecOptions::addTo(CLI::App& command)
 	    ->check(CLI::PositiveNumber)
 	    ->excludes(bitsOption)
 	    ->group(group);
-	command.add_option("--mode", mode, "Coding mode: classic is the method of the paper")
-	    ->check(CLI::IsMember({"classic"}))
+	auto* modeOption =
+	    command
+	        .add_option(
+	            "--mode", mode,
+	            "Coding mode: compact makes positions more precise as the mesh gets denser, and the "
+	            "file smaller; classic is the method of the paper")
+	        ->check(CLI::IsMember({"compact", "classic"}))
+	        ->capture_default_str()
+	        ->group(group);
+	command
+	    .add_option(
+	        "--effort", effort,
+	        "1 is the fastest, to encode and to decode; 3 tries several ways and keeps the "
+	        "smallest file")
+	    ->check(CLI::Range(1, 3))
 	    ->capture_default_str()
 	    ->group(group);
 	command
 	    .add_option(
 	        "--lifting", lifting,
-	        "Update step of the wavelet: off (lazy filter bank), or the k of its k-disc support")
+	        "Classic: update step of the wavelet: off (lazy filter bank), or the k of its k-disc "
+	        "support")
 	    ->check(CLI::IsMember({"off", "0", "1", "2"}))
+	    ->needs(modeOption)
+	    ->capture_default_str()
+	    ->group(group);
+	command
+	    .add_option(
+	        "--optimize", optimize,
+	        "What the choice of vertices to remove aims at: size, levels (the smallest error of "
+	        "coarse levels), or balanced (nearly that for about 2 % more bytes)")
+	    ->check(CLI::IsMember({"size", "balanced", "levels"}))
 	    ->capture_default_str()
 	    ->group(group);
 	command
 	    .add_option(
 	        "--wgc", wgc,
 	        "Wavelet geometrical criterion, keeps sharp edges in coarse levels: off, on, or auto "
-	        "(both are tried, the smaller file is kept)")
+	        "(both are tried and the smaller file is kept; compact: with --effort 3 only, else off)")
 	    ->check(CLI::IsMember({"off", "on", "auto"}))
 	    ->capture_default_str()
 	    ->group(group);
@@ -72,18 +95,28 @@ void CodecOptions::addTo(CLI::App& command)
 	    ->check(CLI::PositiveNumber)
 	    ->capture_default_str()
 	    ->group(group);
+	command
+	    .add_flag(
+	        "--exact", exact,
+	        "Keep every coordinate bit for bit: the finest level is float-lossless")
+	    ->group(group);
 }
 
 EncodeOptions CodecOptions::toEncodeOptions() const
 {
 	EncodeOptions o;
-	o.mode         = Mode::Classic;
+	o.mode         = mode == "classic" ? Mode::Classic : Mode::Compact;
 	o.bits         = bits;
 	o.step         = step;
+	o.effort       = effort;
 	o.lifting      = lifting == "off" ? kLiftingOff : lifting[0] - '0';
+	o.optimize     = optimize == "size"       ? Optimize::Size
+	                 : optimize == "balanced" ? Optimize::Balanced
+	                                          : Optimize::Levels;
 	o.wgc          = wgc == "off" ? Wgc::Off : wgc == "on" ? Wgc::On : Wgc::Auto;
 	o.wgcSharpness = sharpness;
 	o.wgcDeviation = deviation;
+	o.exact        = exact;
 	return o;
 }
 
@@ -92,6 +125,21 @@ std::string nameOf(Mode mode)
 	switch (mode) {
 	case Mode::Classic:
 		return "classic";
+	case Mode::Compact:
+		return "compact";
+	}
+	return "unknown";
+}
+
+std::string nameOf(Optimize optimize)
+{
+	switch (optimize) {
+	case Optimize::Size:
+		return "size";
+	case Optimize::Balanced:
+		return "balanced";
+	case Optimize::Levels:
+		return "levels";
 	}
 	return "unknown";
 }
@@ -105,10 +153,13 @@ std::string nameOf(const EncodeOptions& o)
 {
 	return nameOf(o.mode) + ", " +
 	       (o.step > 0 ? "step " + significant(o.step, 6) : std::to_string(o.bits) + " bits") +
-	       ", lifting " + nameOfLifting(o.lifting) + ", wgc " +
+	       (o.mode == Mode::Classic ? ", lifting " + nameOfLifting(o.lifting)
+	                                : ", effort " + std::to_string(o.effort)) +
+	       ", wgc " +
 	       (o.wgc == Wgc::Off  ? "off"
 	        : o.wgc == Wgc::On ? "on"
-	                           : "auto");
+	                           : "auto") +
+	       ", optimize " + nameOf(o.optimize) + (o.exact ? ", exact" : "");
 }
 
 std::string messageOf(const std::string& path, const Status& status)

@@ -20,11 +20,14 @@ struct CodecOptions
 {
 	int bits            = 12;
 	double step         = 0;
-	std::string mode    = "classic";
+	std::string mode    = "compact";
+	int effort          = 2;
 	std::string lifting = "0";
+	std::string optimize = "balanced";
 	std::string wgc     = "auto";
 	double sharpness    = 0.3;
 	double deviation    = 0.25;
+	bool exact          = false;
 
 	void addTo(CLI::App& command);
 	EncodeOptions toEncodeOptions() const;
@@ -32,6 +35,7 @@ struct CodecOptions
 
 using metrics::nameOf; // of a LevelKind
 std::string nameOf(Mode mode);
+std::string nameOf(Optimize optimize);
 std::string nameOfLifting(int lifting);           ///< off, 0, 1, 2
 std::string nameOf(const EncodeOptions& options); ///< one line for people
 

@@ -27,6 +27,14 @@ Json toJson(const StreamInfo& info)
 	    {"connectivity", bitsPerVertex(info.connectivityBytes, info.vertices)},
 	    {"geometry", bitsPerVertex(info.geometryBytes, info.vertices)},
 	    {"other", bitsPerVertex(other, info.vertices)}};
+	const StreamFeatures& f = info.features;
+	j["lossless"]           = {{"lattice", true}, {"float", f.exact}, {"order", f.orderKept}};
+	j["restored"]           = f.restored;
+	j["feature_bytes"]      = {
+	         {"restoration", f.restorationBytes},
+	         {"order", f.orderBytes},
+	         {"exact", f.exactBytes},
+	         {"attributes", f.attributeBytes}};
 	j["levels"] = Json::array();
 	for (std::size_t i = 0; i < info.levels.size(); ++i) {
 		const LevelInfo& level = info.levels[i];
@@ -56,10 +64,25 @@ void printInfo(const StreamInfo& info)
 	    bpv(info.connectivityBytes).c_str(), bpv(info.geometryBytes).c_str(),
 	    bpv(info.bytes - info.connectivityBytes - info.geometryBytes).c_str());
 	std::printf(
-	    "version %d.%d, mode %s, %d bits per coordinate (step %s), lifting %s, wgc %s\n\n",
+	    "version %d.%d, mode %s, %d bits per coordinate (step %s), lifting %s, wgc %s\n",
 	    info.versionMajor, info.versionMinor, nameOf(info.mode).c_str(), info.bits,
 	    significant(info.step, 6).c_str(), nameOfLifting(info.lifting).c_str(),
 	    info.wgc ? "on" : "off");
+	const StreamFeatures& f = info.features;
+	std::printf(
+	    "promises: lattice-lossless%s%s\n", f.exact ? ", float-lossless" : "",
+	    f.orderKept ? ", order-preserving" : "");
+	const auto feature = [&](bool has, const char* what, std::uint64_t bytes) {
+		if (has)
+			std::printf(
+			    "behind the levels: %s, %s bytes, %s bits per vertex\n", what,
+			    grouped(bytes).c_str(), bpv(bytes).c_str());
+	};
+	feature(f.restored, "what the original has and a manifold has not", f.restorationBytes);
+	feature(f.orderKept, "order", f.orderBytes);
+	feature(f.exact, "exact coordinates", f.exactBytes);
+	feature(f.attributes, "attributes", f.attributeBytes);
+	std::printf("\n");
 	Table table({"level", "kind", "vertices", "faces", "bytes", "up to here", "bpv", "error"});
 	for (std::size_t i = 0; i < info.levels.size(); ++i) {
 		const LevelInfo& level = info.levels[i];

@@ -201,8 +201,9 @@ void addReport(CLI::App& app, Command& chosen)
 	c->codec.addTo(*command);
 	command->add_flag(
 	    "--configs", c->configs,
-	    "The paper's three configurations in one report: I (lazy), II (lifting), III (lifting and "
-	    "wgc). --wgc is ignored; --lifting gives the k of II and III");
+	    "The paper's three configurations and the compact mode in one report: I (lazy), II "
+	    "(lifting), III (lifting and wgc), compact. For the three --wgc and --optimize are "
+	    "ignored; --lifting gives the k of II and III");
 	command
 	    ->add_option(
 	        "--samples", c->samples,

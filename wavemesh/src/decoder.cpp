@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "container/container.h"
+#include "finish/finish.h"
 #include "multires/refine.h"
 #include "syntax/base_syntax.h"
 #include "syntax/connectivity_syntax.h"
 #include "syntax/detail_syntax.h"
+#include "syntax/position_syntax.h"
 #include "wavelet/lifting.h"
 
 #include <wavemesh/codec.h>
 
 #include <new>
+#include <optional>
 
 namespace wavemesh {
 
@@ -21,24 +24,30 @@ struct Decoder::State
 
 	int level = -1;
 	CornerTable table;
-	std::vector<LatticePoint> positions;
-	Status stopped; ///< not ok: no further level can come
+	std::vector<LatticePoint> positions; ///< cells of the level's precision
+	Glue glue;                           ///< of the base mesh
+	std::optional<MeshData> finished;    ///< level J with what follows it, as far as it came
+	Status stopped;                      ///< not ok: no further level can come
 
 	std::size_t offset = 0; ///< of the next chunk
 	Chunk chunk;            ///< the one being read
 	RangeDecoder coder;
-	struct Models
-	{
-		ConnectivityModels connectivity;
-		DetailModels details;
-	};
-	std::unique_ptr<Models> models; ///< megabytes: made for the first split, when there is one
+	// Megabytes: made for the first refinement that needs them.
+	std::unique_ptr<ConnectivityModels> connectivityModels;
+	std::unique_ptr<DetailModels> detailModels;
+	std::unique_ptr<CompactModels> compactModels;
 
 	const LevelRow& row(int l) const { return head.rows[std::size_t(l)]; }
 
+	Status nextChunk(const std::string& what, std::uint8_t type);
 	Status openChunk();
+	Status openFeature(Feature feature);
 	Status readBase();
 	Status readSplit();
+	Status readDetails(const Refinement& refinement);
+	Status readChildren(const Refinement& refinement, const CornerTable& child);
+	Status readPrecise();
+	Status finish();
 	Status advance();
 	Status ended(const char* where) const;
 	Status corrupt(const char* what) const;
@@ -77,50 +86,59 @@ Status Decoder::State::corrupt(const char* what) const
 	    std::uint64_t(chunk.payload - data)};
 }
 
-/// Finds the next level chunk.
-Status Decoder::State::openChunk()
+/// Finds the next chunk that must not be skipped, which must be of this type.
+Status Decoder::State::nextChunk(const std::string& what, std::uint8_t type)
 {
 	for (;;) {
 		if (offset == size)
 			return {
 			    StatusCode::Truncated,
-			    "the file ends before " + levelName(level + 1) + " (" + std::to_string(size) +
-			        " of " + std::to_string(info.bytes) + " bytes)",
+			    "the file ends before " + what + " (" + std::to_string(size) + " of " +
+			        std::to_string(info.bytes) + " bytes)",
 			    size};
 		auto next = readChunk(data, size, offset);
 		if (!next.ok())
 			return next.status();
 		chunk = *next;
-		if (chunk.type == kLevelChunk) {
-			std::uint64_t expected = 0;
-			for (int l = level + 1; l == level + 1 || !row(l - 1).endsChunk; ++l)
-				expected += row(l).bytes;
-			if (chunk.declared != expected)
-				return {
-				    StatusCode::Corrupt,
-				    "the chunk at offset " + std::to_string(offset) +
-				        " is not as long as the head says",
-				    offset};
-			offset = chunk.end;
-			coder  = RangeDecoder(chunk.payload, chunk.size);
-			return {};
-		}
-		if (chunk.type < 'a' || chunk.type > 'z')
+		if (chunk.type != type && (chunk.type < 'a' || chunk.type > 'z'))
 			return {
-			    StatusCode::Corrupt, "an unknown chunk at offset " + std::to_string(offset),
+			    StatusCode::Corrupt,
+			    "the chunk at offset " + std::to_string(offset) + " is none that may come here",
 			    offset};
 		offset = chunk.end;
+		if (chunk.type == type)
+			return {};
 	}
+}
+
+/// Finds the next level chunk.
+Status Decoder::State::openChunk()
+{
+	const std::size_t before = offset;
+	if (Status s = nextChunk(levelName(level + 1), kLevelChunk); !s.ok())
+		return s;
+	std::uint64_t expected = 0;
+	for (int l = level + 1; l == level + 1 || !row(l - 1).endsChunk; ++l)
+		expected += row(l).bytes;
+	if (chunk.declared != expected)
+		return {
+		    StatusCode::Corrupt,
+		    "the chunk at offset " + std::to_string(before) + " is not as long as the head says",
+		    before};
+	coder = RangeDecoder(chunk.payload, chunk.size);
+	return {};
 }
 
 Status Decoder::State::readBase()
 {
 	auto base =
-	    BaseSyntax<RangeDecoder>(coder, head.lattice.bits).read(row(0).vertices, row(0).faces);
+	    BaseSyntax<RangeDecoder>(coder, head.lattice.bits - row(0).shift, head.has(kRestoration))
+	        .read(row(0).vertices, row(0).faces);
 	if (!base.ok())
 		return base.status().code == StatusCode::Truncated ? ended("the base mesh") : base.status();
 	table     = std::move(base->table);
 	positions = std::move(base->positions);
+	glue      = std::move(base->glue);
 	level     = 0;
 	return {};
 }
@@ -129,10 +147,10 @@ Status Decoder::State::readSplit()
 {
 	const LevelRow& target = row(level + 1);
 	Refinement refinement;
-	if (!models)
-		models = std::make_unique<Models>();
-	ConnectivitySyntax<RangeDecoder>(coder, models->connectivity, table, positions)
-	    .code(refinement);
+	if (!connectivityModels)
+		connectivityModels = std::make_unique<ConnectivityModels>(
+		    head.rich ? Contexts::Rich : Contexts::Fast);
+	ConnectivitySyntax<RangeDecoder>(coder, *connectivityModels, table, positions).code(refinement);
 	if (coder.exhausted())
 		return ended("the connectivity");
 	if (refinement.childVertices != target.vertices)
@@ -140,20 +158,54 @@ Status Decoder::State::readSplit()
 	CornerTable child = refine(table, refinement);
 	if (child.faceCount() != target.faces)
 		return corrupt("does not have the number of faces that the head declares");
-
-	const Parents parents       = parentsOf(table, refinement);
-	const UpdateWeights weights = updateWeights(table, refinement, parents, head.lifting);
-	std::vector<LatticePoint> details(parents.size(), {0, 0, 0});
-	DetailSyntax<RangeDecoder>(coder, models->details, table, refinement, positions).code(details);
-	Status cut;
-	if (coder.exhausted()) {
-		cut = ended("the details");
-		if (cut.code != StatusCode::Truncated)
-			return cut;
+	const Status status =
+	    head.mode == Mode::Classic ? readDetails(refinement) : readChildren(refinement, child);
+	if (status.ok() || status.code == StatusCode::Truncated) {
+		table = std::move(child);
+		++level;
 	}
-	synthesise(parents, weights, details, positions);
-	table = std::move(child);
-	++level;
+	return status;
+}
+
+/// Classic: details, and the filter bank.
+Status Decoder::State::readDetails(const Refinement& refinement)
+{
+	const Parents parents = parentsOf(table, refinement);
+	UpdateWeights weights = updateWeights(table, refinement, parents, head.lifting);
+	keepStill(glue, weights);
+	std::vector<LatticePoint> details(parents.size(), {0, 0, 0});
+	if (!detailModels)
+		detailModels = std::make_unique<DetailModels>();
+	DetailSyntax<RangeDecoder>(coder, *detailModels, table, refinement, positions).code(details);
+	const Status cut = coder.exhausted() ? ended("the details") : Status();
+	if (cut.ok() || cut.code == StatusCode::Truncated)
+		synthesise(parents, weights, details, positions);
+	return cut;
+}
+
+/// Compact: the cells of the new vertices.
+Status Decoder::State::readChildren(const Refinement& refinement, const CornerTable& child)
+{
+	const Parents parents = parentsOf(table, refinement);
+	if (!compactModels)
+		compactModels = std::make_unique<CompactModels>();
+	positions.resize(child.vertexCount, {0, 0, 0});
+	PositionSyntax<RangeDecoder>(coder, *compactModels, child, head.lattice.bits, glue)
+	    .codeChildren(table, refinement, parents, row(level + 1).shift, positions);
+	return coder.exhausted() ? ended("the positions") : Status();
+}
+
+/// Compact: more bits for every vertex.
+Status Decoder::State::readPrecise()
+{
+	if (!compactModels)
+		compactModels = std::make_unique<CompactModels>();
+	const int shift = row(level + 1).shift;
+	PositionSyntax<RangeDecoder>(coder, *compactModels, table, head.lattice.bits, glue)
+	    .codeBits(shift, row(level).shift - shift, positions, {});
+	const Status cut = coder.exhausted() ? ended("the positions") : Status();
+	if (cut.ok() || cut.code == StatusCode::Truncated)
+		++level;
 	return cut;
 }
 
@@ -166,11 +218,52 @@ Status Decoder::State::advance()
 	if (level < 0 || row(level).endsChunk)
 		if (Status s = openChunk(); !s.ok())
 			return s;
-	if (Status s = level < 0 ? readBase() : readSplit(); !s.ok())
+	const bool splits = level >= 0 && row(level + 1).kind == LevelKind::Split;
+	if (Status s = level < 0 ? readBase() : splits ? readSplit() : readPrecise(); !s.ok())
 		return s;
 	if (row(level).endsChunk && !chunk.whole)
 		return {
 		    StatusCode::Truncated, "the file ends inside the checksum of " + levelName(level),
+		    size};
+	return {};
+}
+
+/// What follows the finest level. What came whole is applied even if more is missing.
+Status Decoder::State::finish()
+{
+	if (digestOf(table, positions) != head.digest)
+		return {StatusCode::ChecksumMismatch, "the finest mesh does not match its digest"};
+	if (head.features == 0)
+		return {};
+	Finish stage(head, table, positions, glue);
+	Status status;
+	for (int f = 0; f < kFeatures && status.ok(); ++f)
+		if (head.has(Feature(f))) {
+			status = openFeature(Feature(f));
+			if (status.ok())
+				status = stage.apply(Feature(f), chunk.payload, chunk.size);
+		}
+	if (status.ok() || status.code == StatusCode::Truncated)
+		finished = stage.mesh();
+	return status;
+}
+
+/// Finds the chunk of a feature.
+Status Decoder::State::openFeature(Feature feature)
+{
+	if (Status s = nextChunk("what follows the levels", kFeatureChunk[feature]); !s.ok())
+		return s;
+	if (chunk.declared != head.featureBytes[feature])
+		return {
+		    StatusCode::Corrupt,
+		    "the chunk that ends at offset " + std::to_string(chunk.end) +
+		        " is not as long as the head says",
+		    chunk.end};
+	if (!chunk.whole)
+		return {
+		    StatusCode::Truncated,
+		    "the file ends inside what follows the levels (" + std::to_string(size) + " of " +
+		        std::to_string(info.bytes) + " bytes)",
 		    size};
 	return {};
 }
@@ -198,16 +291,19 @@ Decoder::open(const std::uint8_t* data, std::size_t size, const DecodeLimits& li
 	auto head       = readHead(data, size, end);
 	if (!head.ok())
 		return head.status();
-	state->data   = data;
-	state->size   = size;
-	state->head   = std::move(*head);
-	state->info   = describe(state->head, end);
-	state->offset = end;
-	if (state->info.vertices > limits.maxVertices || state->info.faces > limits.maxFaces)
+	state->data                  = data;
+	state->size                  = size;
+	state->head                  = std::move(*head);
+	state->info                  = describe(state->head, end);
+	state->offset                = end;
+	const LevelRow& finest       = state->head.rows.back();
+	const std::uint32_t vertices = std::max(state->info.vertices, finest.vertices);
+	const std::uint32_t faces    = std::max(state->info.faces, finest.faces);
+	if (vertices > limits.maxVertices || faces > limits.maxFaces)
 		return Status(
 		    StatusCode::LimitExceeded,
-		    "the file declares " + std::to_string(state->info.vertices) + " vertices and " +
-		        std::to_string(state->info.faces) + " faces, more than the limit of " +
+		    "the file declares " + std::to_string(vertices) + " vertices and " +
+		        std::to_string(faces) + " faces, more than the limit of " +
 		        std::to_string(limits.maxVertices) + " and " + std::to_string(limits.maxFaces));
 	return Decoder(std::move(state));
 }
@@ -218,9 +314,8 @@ Status Decoder::advance()
 	Status status;
 	try {
 		status = s.advance();
-		if (status.ok() && s.level == s.info.finestLevel() &&
-		    digestOf(s.table, s.positions) != s.head.digest)
-			status = {StatusCode::ChecksumMismatch, "the finest mesh does not match its digest"};
+		if (status.ok() && s.level == s.info.finestLevel())
+			status = s.finish();
 	}
 	catch (const std::bad_alloc&) {
 		status = {StatusCode::OutOfMemory, "not enough memory for " + levelName(s.level + 1)};
@@ -233,10 +328,17 @@ Status Decoder::advance()
 MeshData Decoder::mesh() const
 {
 	const State& s = *state_;
+	if (s.finished)
+		return *s.finished;
 	MeshData out;
+	const int shift = s.row(s.level).shift;
 	out.positions.reserve(s.positions.size());
-	for (const LatticePoint& p : s.positions)
-		out.positions.push_back(s.head.lattice.position(p));
+	if (shift == 0)
+		for (const LatticePoint& p : s.positions)
+			out.positions.push_back(s.head.lattice.position(p));
+	else
+		for (const LatticePoint& p : likelyPositions(s.table, s.positions, shift, s.glue))
+			out.positions.push_back(s.head.lattice.positionOfSixteenths(p));
 	out.triangles.resize(s.table.faceCount());
 	for (std::size_t f = 0; f < out.triangles.size(); ++f)
 		for (std::size_t k = 0; k < 3; ++k)
@@ -265,10 +367,10 @@ Result<DecodedMesh> decode(const std::uint8_t* data, std::size_t size, const Dec
 	const int target       = options.level < 0 ? finest : std::min(options.level, finest);
 	Status status;
 	while (decoder->level() < target && status.ok()) {
-		const double done =
-		    decoder->level() < 0
-		        ? 0
-		        : double(info.levels[std::size_t(decoder->level())].vertices) / info.vertices;
+		const double done = decoder->level() < 0
+		                        ? 0
+		                        : double(info.levels[std::size_t(decoder->level())].vertices) /
+		                              info.levels.back().vertices;
 		if (options.progress && !options.progress(done))
 			return Status(StatusCode::Cancelled, "cancelled");
 		status = decoder->advance();

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "container/container.h"
-#include "multires/hierarchy.h"
-#include "syntax/base_syntax.h"
-#include "syntax/connectivity_syntax.h"
-#include "syntax/detail_syntax.h"
-#include "wavelet/lifting.h"
+#include "encode/classic.h"
+#include "encode/compact.h"
+#include "finish/finish.h"
 
 #include <wavemesh/codec.h>
 
@@ -14,13 +12,14 @@
 namespace wavemesh {
 namespace {
 
-/// A chunk is closed after the level that takes it past this many bytes: small levels share one.
-constexpr std::size_t kChunkSize = 400;
-
 Status checkOptions(const EncodeOptions& o)
 {
-	if (o.mode != Mode::Classic)
+	if (o.mode > Mode::Compact)
 		return {StatusCode::InvalidArgument, "unknown mode"};
+	if (o.optimize > Optimize::Levels)
+		return {StatusCode::InvalidArgument, "unknown aim to optimise for"};
+	if (o.effort < 1 || o.effort > 3)
+		return {StatusCode::InvalidArgument, "effort must be 1, 2 or 3"};
 	if (o.lifting < kLiftingOff || o.lifting > 2)
 		return {StatusCode::InvalidArgument, "lifting must be off or the k of a k-disc, 0 to 2"};
 	if (!(o.wgcSharpness >= 0 && o.wgcSharpness <= 1))
@@ -30,241 +29,158 @@ Status checkOptions(const EncodeOptions& o)
 	return {};
 }
 
-/// Maps the progress of one stage into a part of the whole.
-class Stage
+/// Which steps of the coarsening look at the error they make. Shares and steps from experiment, on
+/// meshes of all kinds: docs/algorithm.md, section 3.
+Steering steeringFor(Optimize optimize)
 {
-public:
-	Stage(const Progress& progress, double from, double to) :
-	        progress_(progress), from_(from), to_(to)
-	{
+	switch (optimize) {
+	case Optimize::Balanced:
+		return {1, 0.9, 0.75};
+	case Optimize::Levels:
+		return {0, 0.8, 0.6};
+	case Optimize::Size:
+		break;
 	}
-	bool operator()(double fraction) const
-	{
-		return !progress_ || progress_(from_ + fraction * (to_ - from_));
-	}
-	Stage part(double from, double to) const
-	{
-		return {progress_, from_ + from * (to_ - from_), from_ + to * (to_ - from_)};
-	}
-
-private:
-	const Progress& progress_;
-	double from_, to_;
-};
-
-Status cancelled()
-{
-	return {StatusCode::Cancelled, "cancelled"};
+	return {};
 }
 
-struct QuantisedMesh
+/// Cuts, and rounds to the lattice.
+Result<QuantisedMesh> prepare(const MeshData& mesh, const EncodeOptions& options)
 {
-	CornerTable table;
-	Lattice lattice;
-	std::vector<LatticePoint> positions;
-};
-
-/// Details of one level and what their synthesis needs.
-struct AnalysedLevel
-{
-	Parents parents;
-	UpdateWeights weights;
-	std::vector<LatticePoint> details;
-};
-
-std::uint64_t saturatingAdd(std::uint64_t a, std::uint64_t b)
-{
-	return a > std::numeric_limits<std::uint64_t>::max() - b
-	           ? std::numeric_limits<std::uint64_t>::max()
-	           : a + b;
-}
-
-/// Writes the levels into chunks and their rows into the head.
-class LevelWriter
-{
-public:
-	LevelWriter(Head& head, std::vector<std::uint8_t>& chunks) : head_(head), chunks_(chunks) {}
-
-	RangeEncoder& coder() { return coder_; }
-	void connectivityEnds() { connectivityEnd_ = coder_.mark(); }
-
-	void endLevel(const LevelRow& row, bool last)
-	{
-		levels_.push_back({row, connectivityEnd_, coder_.mark()});
-		connectivityEnd_ = coder_.mark();
-		if (last || coder_.mark().size >= kChunkSize)
-			endChunk();
-	}
-
-private:
-	struct Level
-	{
-		LevelRow row;
-		RangeEncoder::Mark connectivityEnd, end;
-	};
-
-	void endChunk()
-	{
-		const auto payload = coder_.finish();
-		writeChunk(kLevelChunk, payload, chunks_);
-		std::size_t begin = 0;
-		for (Level& level : levels_) {
-			const std::size_t middle    = RangeEncoder::prefix(payload, level.connectivityEnd);
-			const std::size_t end       = RangeEncoder::prefix(payload, level.end);
-			level.row.bytes             = std::uint32_t(end - begin);
-			level.row.connectivityBytes = std::uint32_t(middle - begin);
-			level.row.endsChunk         = &level == &levels_.back();
-			begin                       = end;
-			head_.rows.push_back(level.row);
-		}
-		levels_.clear();
-		connectivityEnd_ = {};
-	}
-
-	Head& head_;
-	std::vector<std::uint8_t>& chunks_;
-	RangeEncoder coder_;
-	std::vector<Level> levels_; ///< of the chunk being written
-	RangeEncoder::Mark connectivityEnd_;
-};
-
-Result<EncodedMesh>
-encodeOnce(const QuantisedMesh& mesh, const EncodeOptions& options, bool wgc, const Stage& stage)
-{
-	// Coarsen, from the finest level down.
-	const GeometricalCriterion criterion {wgc, options.wgcSharpness, options.wgcDeviation};
-	bool running           = true;
-	const Stage coarsening = stage.part(0, 0.5);
-	auto coarsenings = coarsenAll(mesh.table, mesh.positions, criterion, [&](double fraction) {
-		running = coarsening(fraction);
-		return running;
-	});
-	if (!running)
-		return cancelled();
-
-	// Number everything as the decoder will.
-	BaseMesh base;
-	std::vector<Index> source;
-	base.table = coarsenings.empty() ? mesh.table : coarsenings.back().coarse;
-	base.positions.resize(base.table.vertexCount);
-	{
-		RangeEncoder ignored; // the order of the base does not depend on its positions
-		base.table = BaseSyntax<RangeEncoder>(ignored, mesh.lattice.bits).write(base, source).table;
-	}
-	Replay levels = replay(std::move(coarsenings), std::move(base.table), std::move(source));
-	std::vector<LatticePoint> positions;
-	positions.reserve(levels.source.size());
-	for (const Index v : levels.source)
-		positions.push_back(mesh.positions[v]);
-
-	Head head;
-	head.lifting = options.lifting;
-	head.wgc     = wgc;
-	head.lattice = mesh.lattice;
-	head.digest  = digestOf(levels.finest, positions);
-
-	// Analyse, from the finest level down.
-	const std::size_t splits = levels.levels.size();
-	std::vector<AnalysedLevel> analysed(splits);
-	std::vector<std::uint64_t> squaredError(
-	    splits + 1, 0); // by level, of the details that it lacks
-	for (std::size_t i = splits; i-- > 0;) {
-		const ReplayedLevel& level = levels.levels[i];
-		AnalysedLevel& a           = analysed[i];
-		a.parents                  = parentsOf(level.parent, level.refinement);
-		a.weights = updateWeights(level.parent, level.refinement, a.parents, options.lifting);
-		a.details = analyse(a.parents, a.weights, positions);
-		positions.resize(level.parent.vertexCount);
-		squaredError[i] = squaredError[i + 1];
-		for (const LatticePoint& d : a.details)
-			squaredError[i] = saturatingAdd(squaredError[i], squaredDistance(d, {0, 0, 0}));
-		if (!stage(0.7 - 0.2 * double(i + 1) / double(splits)))
-			return cancelled();
-	}
-
-	// Code, from the base up; each level is synthesised on the way, as the decoder does.
-	std::vector<std::uint8_t> chunks;
-	LevelWriter writer(head, chunks);
-	ConnectivityModels connectivityModels;
-	DetailModels detailModels;
-	const auto row = [&](LevelKind kind, std::size_t level, std::size_t vertices,
-	                     std::size_t faces) {
-		LevelRow r;
-		r.kind      = kind;
-		r.vertices  = std::uint32_t(vertices);
-		r.faces     = std::uint32_t(faces);
-		r.errorCode = errorCode(squaredError[level], levels.source.size());
-		return r;
-	};
-	{
-		BaseMesh b {splits == 0 ? levels.finest : levels.levels[0].parent, positions};
-		BaseSyntax<RangeEncoder>(writer.coder(), mesh.lattice.bits).write(b, source);
-		writer.endLevel(
-		    row(LevelKind::Base, 0, b.positions.size(), b.table.faceCount()), splits == 0);
-	}
-	for (std::size_t i = 0; i < splits; ++i) {
-		ReplayedLevel& level = levels.levels[i];
-		AnalysedLevel& a     = analysed[i];
-		ConnectivitySyntax<RangeEncoder>(
-		    writer.coder(), connectivityModels, level.parent, positions)
-		    .code(level.refinement);
-		writer.connectivityEnds();
-		DetailSyntax<RangeEncoder>(
-		    writer.coder(), detailModels, level.parent, level.refinement, positions)
-		    .code(a.details);
-		synthesise(a.parents, a.weights, a.details, positions);
-		const CornerTable& child = i + 1 < splits ? levels.levels[i + 1].parent : levels.finest;
-		writer.endLevel(
-		    row(LevelKind::Split, i + 1, positions.size(), child.faceCount()), i + 1 == splits);
-		level = {};
-		a     = {};
-		if (!stage(0.7 + 0.3 * double(positions.size()) / double(levels.source.size())))
-			return cancelled();
-	}
-
-	EncodedMesh out;
-	writeHead(head, out.bytes);
-	out.info = describe(head, out.bytes.size());
-	out.bytes.insert(out.bytes.end(), chunks.begin(), chunks.end());
-	return out;
-}
-
-Result<EncodedMesh> encodeMesh(const MeshData& mesh, const EncodeOptions& options)
-{
-	if (Status s = checkOptions(options); !s.ok())
-		return s;
-	if (mesh.triangles.empty())
-		return Status(StatusCode::Unsupported, "the mesh has no faces");
-	if (mesh.positions.size() > std::numeric_limits<std::int32_t>::max() / 3 ||
-	    mesh.triangles.size() > std::numeric_limits<std::int32_t>::max() / 3)
+	constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max() / 3;
+	if (mesh.positions.size() > kMost || mesh.triangles.size() > kMost)
 		return Status(
 		    StatusCode::LimitExceeded, "the mesh has more than 715 million vertices or faces");
-	const auto lattice = makeLattice(mesh.positions, options.bits, options.step);
+	const auto& finite = options.exact ? finitePositions(mesh.positions) : mesh.positions;
+	const auto lattice = makeLattice(finite, options.bits, options.step);
 	if (!lattice.ok())
 		return lattice.status();
-	auto table = buildCornerTable(mesh.triangles, Index(mesh.positions.size()));
-	if (!table.ok())
-		return table.status();
-	const QuantisedMesh quantised {std::move(*table), *lattice, quantise(mesh.positions, *lattice)};
-
-	const Stage whole(options.progress, 0, 1);
-	if (options.wgc != Wgc::Auto)
-		return encodeOnce(quantised, options, options.wgc == Wgc::On, whole);
-	auto blind = encodeOnce(quantised, options, false, whole.part(0, 0.5));
-	if (!blind.ok())
-		return blind;
-	auto steered = encodeOnce(quantised, options, true, whole.part(0.5, 1));
-	if (!steered.ok())
-		return steered;
-	return steered->bytes.size() < blind->bytes.size() ? steered : blind;
+	auto cut = cutToManifold(mesh.triangles, Index(mesh.positions.size()));
+	if (!cut.ok())
+		return cut.status();
+	QuantisedMesh quantised {std::move(*cut), *lattice, {}};
+	const auto points = quantise(finite, *lattice);
+	for (const Index v : quantised.cut.vertex)
+		quantised.positions.push_back(points[v]);
+	return quantised;
 }
+
+/// Everything that may be encoded in several ways, of which the smallest file is kept.
+class Encoder
+{
+public:
+	Encoder(const MeshData& original, const QuantisedMesh& mesh, const EncodeOptions& options) :
+	        original_(original), mesh_(mesh), options_(options)
+	{
+	}
+
+	Result<EncodedMesh> run()
+	{
+		const bool classic = options_.mode == Mode::Classic || options_.effort == 1;
+		// With Levels no step is left to the geometrical criterion.
+		const bool both = options_.wgc == Wgc::Auto && options_.optimize != Optimize::Levels &&
+		                  (options_.mode == Mode::Classic || options_.effort == 3);
+		const Stage whole(options_.progress, 0, 1);
+		for (const bool wgc : {false, true}) {
+			if (!both && wgc != (options_.wgc == Wgc::On))
+				continue;
+			const Stage stage = both ? whole.part(wgc ? 0.5 : 0, wgc ? 1 : 0.5) : whole;
+			const GeometricalCriterion criterion {
+			    wgc, options_.wgcSharpness, options_.wgcDeviation};
+			std::optional<Levels> levels = makeLevels(
+			    mesh_, criterion, steeringFor(options_.optimize), stage.part(0, 0.4));
+			if (!levels)
+				return cancelled();
+			if (!(classic ? tryClassic(*levels, wgc, stage.part(0.4, 1))
+			              : tryCompact(*levels, wgc, stage.part(0.4, 1))))
+				return cancelled();
+		}
+		return std::move(best_);
+	}
+
+private:
+	Head headOf(const Levels& levels, Mode mode, bool wgc) const
+	{
+		Head head;
+		head.mode     = mode;
+		head.wgc      = wgc;
+		head.rich     = options_.effort > 1;
+		head.lattice  = mesh_.lattice;
+		head.digest   = digestOf(levels.replay.finest, levels.positions);
+		head.features = featuresFor(options_, mesh_.cut);
+		return head;
+	}
+
+	bool tryClassic(Levels& levels, bool wgc, const Stage& stage)
+	{
+		Head head    = headOf(levels, Mode::Classic, wgc);
+		head.lifting = options_.mode == Mode::Classic ? options_.lifting : kLiftingOff;
+		std::vector<std::uint8_t> chunks;
+		if (!writeClassic(levels, head, chunks, stage))
+			return false;
+		keepIfSmaller(levels, head, chunks);
+		return true;
+	}
+
+	bool tryCompact(const Levels& levels, bool wgc, const Stage& stage)
+	{
+		const std::vector<ScheduleOptions> tries = schedulesFor(levels);
+		for (std::size_t i = 0; i < tries.size(); ++i) {
+			const double part = 1.0 / double(tries.size());
+			Head head         = headOf(levels, Mode::Compact, wgc);
+			std::vector<std::uint8_t> chunks;
+			const Schedule schedule = makeSchedule(levels, mesh_.lattice.bits, tries[i]);
+			if (!writeCompact(
+			        levels, schedule, head, chunks,
+			        stage.part(double(i) * part, double(i + 1) * part)))
+				return false;
+			keepIfSmaller(levels, head, chunks);
+		}
+		return true;
+	}
+
+	std::vector<ScheduleOptions> schedulesFor(const Levels& levels) const
+	{
+		if (options_.effort < 3)
+			return {{8, guessLastBits(levels.replay.finest, levels.positions)}};
+		return {
+		    {8, LastBits::OneByOne},
+		    {8, LastBits::AtOnce},
+		    {4, guessLastBits(levels.replay.finest, levels.positions)},
+		    {12, guessLastBits(levels.replay.finest, levels.positions)}};
+	}
+
+	void keepIfSmaller(const Levels& levels, Head& head, std::vector<std::uint8_t>& chunks)
+	{
+		writeFinish(
+		    {original_, mesh_.cut, levels.replay.finest, levels.positions, levels.replay.source,
+		     levels.glue},
+		    head, chunks);
+		EncodedMesh out;
+		writeHead(head, out.bytes);
+		out.info = describe(head, out.bytes.size());
+		out.bytes.insert(out.bytes.end(), chunks.begin(), chunks.end());
+		if (best_.bytes.empty() || out.bytes.size() < best_.bytes.size())
+			best_ = std::move(out);
+	}
+
+	const MeshData& original_;
+	const QuantisedMesh& mesh_;
+	const EncodeOptions& options_;
+	EncodedMesh best_;
+};
 
 } // namespace
 
 Result<EncodedMesh> encode(const MeshData& mesh, const EncodeOptions& options)
 {
 	try {
-		return encodeMesh(mesh, options);
+		if (Status s = checkOptions(options); !s.ok())
+			return s;
+		const auto quantised = prepare(mesh, options);
+		if (!quantised.ok())
+			return quantised.status();
+		return Encoder(mesh, *quantised, options).run();
 	}
 	catch (const std::bad_alloc&) {
 		return Status(StatusCode::OutOfMemory, "not enough memory to encode this mesh");

@@ -24,13 +24,23 @@ using Progress = std::function<bool(double fraction)>;
 
 enum class Mode : std::uint8_t {
 	Classic = 0, ///< the paper: every refinement is a split at full precision
+	Compact = 1, ///< smaller: positions get more precise as the mesh gets denser
 };
 
 /// Wavelet geometrical criterion of the paper, sec. III: may a sharp vertex be removed?
 enum class Wgc : std::uint8_t {
 	Off  = 0, ///< geometry-blind coarsening
 	On   = 1,
-	Auto = 2, ///< both are encoded and the smaller file is kept
+	Auto = 2, ///< both are encoded and the smaller file is kept; Compact: only with effort 3, else Off
+};
+
+/// What the choice of the vertices that each step removes is good for. Sizes and errors of all
+/// three: README.
+enum class Optimize : std::uint8_t {
+	Size     = 0, ///< the smallest file: connectivity decides, with wgc as the paper has it
+	Balanced = 1, ///< coarse levels close to the original, for about 2 % more bytes: the finest
+	              ///< step as with Size, the others remove what makes the smallest errors
+	Levels = 2,   ///< the smallest error at any low rate: all steps so; wgc does not matter
 };
 
 /// Lifting is off: the lazy filter bank, configuration I of the paper.
@@ -38,7 +48,11 @@ constexpr int kLiftingOff = -1;
 
 struct EncodeOptions
 {
-	Mode mode = Mode::Classic;
+	Mode mode = Mode::Compact;
+	/// What encoding and decoding may cost, 1..3. 1 is the fastest: the contexts of connectivity
+	/// are fewer, and a compact file becomes a classic one without lifting. 2 chooses a schedule by
+	/// a look at the mesh, 3 encodes with several and keeps the smallest.
+	int effort = 2;
 
 	/// Bits per coordinate over the largest extent of the bounding box, 1..24 (2^bits - 1 steps).
 	int bits = 12;
@@ -46,8 +60,10 @@ struct EncodeOptions
 	/// be below 2^24 steps.
 	double step = 0;
 
-	/// kLiftingOff, or the k of the k-disc support of the update, 0..2 (paper sec. V.B).
+	/// Classic: kLiftingOff, or the k of the k-disc support of the update, 0..2 (paper sec. V.B).
 	int lifting = 0;
+
+	Optimize optimize = Optimize::Balanced;
 
 	Wgc wgc = Wgc::Auto;
 	/// A vertex is sharp if an incident dihedral has |n1 x n2| above this. 0..1.
@@ -56,21 +72,30 @@ struct EncodeOptions
 	/// to that edge's length, is below this. > 0.
 	double wgcDeviation = 0.25;
 
+	/// The decoded mesh has the original's order of vertices and faces, and each face its first
+	/// corner.
+	bool keepOrder = false;
+	/// The decoded mesh has the bit pattern of every coordinate, not-a-numbers and infinities too.
+	bool exact = false;
+
 	Progress progress;
 };
 
 enum class LevelKind : std::uint8_t {
 	Base  = 0, ///< the coarsest mesh
-	Split = 1, ///< one subdivision step
+	Split   = 1, ///< one subdivision step
+	Precise = 2, ///< more bits for every position; the same vertices and faces
 };
 
 /// One row of the level table in the file's head.
 struct LevelInfo
 {
 	LevelKind kind         = LevelKind::Base;
-	std::uint32_t vertices = 0;
+	std::uint32_t vertices = 0; ///< of the finest level: the original's
 	std::uint32_t faces    = 0;
-	std::uint64_t bytes = 0; ///< what this level adds to the file; the levels' sum is the file size
+	/// What this level adds to the file; the levels' sum is the file size. The finest one's include
+	/// what StreamFeatures lists.
+	std::uint64_t bytes = 0;
 	std::uint64_t prefix =
 	    0; ///< length of the shortest prefix of the file that holds this level whole
 	/// Of `bytes`, those spent on connectivity and on geometry; the rest is headers and checksums.
@@ -80,6 +105,23 @@ struct LevelInfo
 	/// Model units; an estimate from the details (docs/wmc_format.md), not a surface distance. 0
 	/// for the finest level.
 	double error = 0;
+};
+
+/// What the file keeps besides connectivity and lattice positions, and the bytes it takes. All of
+/// it follows the last level, and belongs to the finest mesh alone.
+struct StreamFeatures
+{
+	/// The original is no oriented manifold. Every level is one; the finest mesh is the original
+	/// once what follows the levels was read (before that, a manifold with some vertices several
+	/// times).
+	bool restored                  = false;
+	bool orderKept                 = false; ///< order-preserving: EncodeOptions::keepOrder
+	bool exact                     = false; ///< float-lossless: EncodeOptions::exact
+	bool attributes                = false;
+	std::uint64_t restorationBytes = 0;
+	std::uint64_t orderBytes       = 0;
+	std::uint64_t exactBytes       = 0;
+	std::uint64_t attributeBytes   = 0;
 };
 
 /// What the head of a file tells.
@@ -99,6 +141,7 @@ struct StreamInfo
 	/// Bytes of the file spent on connectivity and geometry; the rest is headers and checksums.
 	std::uint64_t connectivityBytes = 0;
 	std::uint64_t geometryBytes     = 0;
+	StreamFeatures features;
 	std::vector<LevelInfo> levels; ///< coarsest first
 
 	int finestLevel() const { return static_cast<int>(levels.size()) - 1; }
@@ -112,11 +155,12 @@ struct EncodedMesh
 
 /// Encodes `mesh`.
 ///
-/// @param mesh  oriented 2-manifold with or without boundary, any genus, any number of components,
-///              no isolated vertices, no degenerate or duplicate faces; never modified
-/// @return the file; InvalidArgument for options out of range, non-finite coordinates or indices
-///         out of range; Unsupported (naming the vertex or edge) for a mesh that is not as above;
-///         Cancelled. The same mesh and options give the same bytes everywhere.
+/// @param mesh  any triangles: non-manifold, inconsistently or not orientable, with isolated
+///              vertices, degenerate faces, several times the same face, or none at all; never
+///              modified
+/// @return the file; InvalidArgument for options out of range, indices out of range, and
+///         coordinates that are not finite unless options.exact is set, naming the vertex;
+///         LimitExceeded; Cancelled. The same mesh and options give the same bytes everywhere.
 /// Cost linear in the mesh.
 Result<EncodedMesh> encode(const MeshData& mesh, const EncodeOptions& options = {});
 
@@ -156,7 +200,8 @@ struct DecodedMesh
 /// @return the mesh; with status Truncated *and* a mesh if the data ends before the level asked
 ///         for but after the base mesh. Errors without a mesh: NotWmc, VersionTooNew, Truncated
 ///         (not even the base arrived), Corrupt, ChecksumMismatch, LimitExceeded, Cancelled.
-/// Vertices of a level keep their index in every finer level.
+/// Vertices of a level keep their index in every finer level, but for the finest if StreamFeatures
+/// says that it is restored or keeps the original's order.
 Result<DecodedMesh>
 decode(const std::uint8_t* data, std::size_t size, const DecodeOptions& options = {});
 

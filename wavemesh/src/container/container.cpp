@@ -9,10 +9,11 @@
 namespace wavemesh {
 namespace {
 
-constexpr std::uint8_t kMagic[8]     = {0x8b, 'W', 'M', 'C', '\r', '\n', 0x1a, '\n'};
-constexpr std::size_t kChecksumSize  = 4;
-constexpr std::uint32_t kMaxLevels   = 4096;
-constexpr std::uint32_t kMaxElements = 0x7fffffff / 3; ///< corners are 32-bit indices
+constexpr std::uint8_t kMagic[8]         = {0x8b, 'W', 'M', 'C', '\r', '\n', 0x1a, '\n'};
+constexpr std::size_t kChecksumSize      = 4;
+constexpr std::uint32_t kMaxLevels       = 4096;
+constexpr std::uint32_t kMaxElements     = 0x7fffffff / 3;          ///< corners are 32-bit indices
+constexpr std::uint64_t kMaxFeatureBytes = std::uint64_t {1} << 48; ///< sums stay below 2^64
 
 Status corruptHead(const char* why)
 {
@@ -48,19 +49,23 @@ bool visitFields(Io& io, Head& h)
 		wide   = extent / steps != h.lattice.step;
 		for (const double x : h.lattice.origin)
 			wide = wide || double(float(x)) != x;
-		flags =
-		    std::uint8_t(int(h.mode) | (h.wgc ? 8 : 0) | (wide ? 16 : 0) | ((h.lifting + 1) << 5));
+		flags = std::uint8_t(
+		    int(h.mode) | (h.wgc ? 8 : 0) | (wide ? 16 : 0) | ((h.lifting + 1) << 5) |
+		    (h.rich ? 128 : 0));
 	}
 	io.fixed(flags);
+	io.fixed(h.features);
 	std::uint8_t bits = std::uint8_t(h.lattice.bits);
 	io.fixed(bits);
 	if constexpr (Io::kReading) {
 		h.mode         = Mode(flags & 7);
 		h.wgc          = (flags & 8) != 0;
 		wide           = (flags & 16) != 0;
-		h.lifting      = (flags >> 5) - 1;
+		h.lifting      = ((flags >> 5) & 3) - 1;
+		h.rich         = (flags & 128) != 0;
 		h.lattice.bits = bits;
-		if (bits < 1 || bits > kMaxBits || h.mode != Mode::Classic || h.lifting > 2)
+		if (bits < 1 || bits > kMaxBits || h.mode > Mode::Compact ||
+		    (h.mode == Mode::Compact && h.lifting != kLiftingOff))
 			return false;
 	}
 	for (double& x : h.lattice.origin)
@@ -73,17 +78,28 @@ bool visitFields(Io& io, Head& h)
 			h.lattice.step = extent / double((std::uint32_t(1) << h.lattice.bits) - 1);
 	}
 	io.fixed(h.digest);
-	return true;
+	if (h.has(kRestoration)) {
+		io.varint(h.vertices);
+		io.varint(h.faces);
+	}
+	for (int f = 0; f < kFeatures; ++f)
+		if (h.has(Feature(f)))
+			io.varint(h.featureBytes[std::size_t(f)]);
+	for (const std::uint64_t bytes : h.featureBytes)
+		if (bytes > kMaxFeatureBytes)
+			return false;
+	return (h.features >> kFeatures) == 0;
 }
 
 /// The level table, finest first: each row next to the one it was coarsened to.
 template <class Coder>
-void codeRows(Coder& coder, std::vector<LevelRow>& rows)
+void codeRows(Coder& coder, Mode mode, std::vector<LevelRow>& rows)
 {
 	AdaptiveUnsigned<32> vertices, faces, bytes, connectivity;
 	AdaptiveSigned<32> removed;
 	AdaptiveSigned<9> error;
-	AdaptiveBit endsChunk;
+	AdaptiveUnsigned<5> sharper;
+	AdaptiveBit endsChunk, precise;
 	for (std::size_t i = rows.size(); i-- > 0 && !coder.exhausted();) {
 		LevelRow& row = rows[i];
 		if (i + 1 == rows.size()) {
@@ -92,25 +108,38 @@ void codeRows(Coder& coder, std::vector<LevelRow>& rows)
 		}
 		else {
 			const LevelRow& finer = rows[i + 1];
-			row.vertices =
-			    finer.vertices - std::uint32_t(vertices.code(coder, finer.vertices - row.vertices));
-			// A vertex less is two faces less, away from the boundary.
-			const std::int64_t regular =
-			    std::int64_t(finer.faces) - 2 * std::int64_t(finer.vertices - row.vertices);
-			row.faces = std::uint32_t(regular + removed.code(coder, row.faces - regular));
+			if (finer.kind == LevelKind::Precise) {
+				row.vertices = finer.vertices;
+				row.faces    = finer.faces;
+				row.shift    = finer.shift + 1 +
+				            int(sharper.code(coder, std::uint64_t(row.shift - finer.shift - 1)));
+			}
+			else {
+				row.vertices = finer.vertices -
+				               std::uint32_t(vertices.code(coder, finer.vertices - row.vertices));
+				// A vertex less is two faces less, away from the boundary.
+				const std::int64_t regular =
+				    std::int64_t(finer.faces) - 2 * std::int64_t(finer.vertices - row.vertices);
+				row.faces = std::uint32_t(regular + removed.code(coder, row.faces - regular));
+				row.shift = finer.shift;
+			}
 			row.errorCode =
 			    std::uint8_t(finer.errorCode + error.code(coder, row.errorCode - finer.errorCode));
 		}
 		row.bytes             = std::uint32_t(bytes.code(coder, row.bytes));
 		row.connectivityBytes = std::uint32_t(connectivity.code(coder, row.connectivityBytes));
 		row.endsChunk         = codeBit(coder, endsChunk, row.endsChunk, 60);
-		row.kind              = i == 0 ? LevelKind::Base : LevelKind::Split;
+		const bool isPrecise  = mode == Mode::Compact && i > 0 &&
+		                       codeBit(coder, precise, row.kind == LevelKind::Precise, 60);
+		row.kind = i == 0 ? LevelKind::Base : isPrecise ? LevelKind::Precise : LevelKind::Split;
 	}
 }
 
-/// What a split can do at most.
-Status checkRows(const std::vector<LevelRow>& rows)
+/// What a refinement can do at most.
+Status checkRows(const std::vector<LevelRow>& rows, int bits)
 {
+	if (rows[0].shift >= bits)
+		return corruptHead("the base mesh has no precision");
 	if (!rows.back().endsChunk)
 		return corruptHead("the last level is open");
 	for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -159,14 +188,18 @@ double errorFromCode(std::uint8_t code)
 
 std::uint32_t digestOf(const CornerTable& table, const std::vector<LatticePoint>& positions)
 {
-	ByteWriter out;
-	out.bytes.reserve(12 * positions.size() + 4 * table.vertex.size());
+	std::vector<std::uint8_t> bytes(12 * positions.size() + 4 * table.vertex.size());
+	std::uint8_t* at = bytes.data();
+	const auto put   = [&at](std::uint32_t x) {
+        for (int i = 0; i < 4; ++i)
+            *at++ = static_cast<std::uint8_t>(x >> (8 * i));
+	};
 	for (const LatticePoint& p : positions)
 		for (const std::int32_t x : p)
-			out.fixed(static_cast<std::uint32_t>(x));
+			put(static_cast<std::uint32_t>(x));
 	for (const Index v : table.vertex)
-		out.fixed(v);
-	return checksum(out.bytes.data(), out.bytes.size());
+		put(v);
+	return checksum(bytes.data(), bytes.size());
 }
 
 void writeChunk(
@@ -225,7 +258,7 @@ void writeHead(const Head& head, std::vector<std::uint8_t>& file)
 	visitFields(out, copy);
 	out.varint(copy.rows.size());
 	RangeEncoder coder;
-	codeRows(coder, copy.rows);
+	codeRows(coder, copy.mode, copy.rows);
 	const auto table = coder.finish();
 	out.bytes.insert(out.bytes.end(), table.begin(), table.end());
 	writeChunk(kHeadChunk, out.bytes, file);
@@ -275,14 +308,39 @@ Result<Head> readHead(const std::uint8_t* data, std::size_t size, std::size_t& e
 		return corruptHead("impossible fields");
 	head.rows.resize(count);
 	RangeDecoder coder(chunk->payload + in.position(), chunk->size - in.position());
-	codeRows(coder, head.rows);
+	codeRows(coder, head.mode, head.rows);
 	if (coder.exhausted())
 		return corruptHead("the level table is cut");
-	if (Status s = checkRows(head.rows); !s.ok())
+	if (Status s = checkRows(head.rows, head.lattice.bits); !s.ok())
 		return s;
+	const LevelRow& finest = head.rows.back();
+	if (!head.has(kRestoration)) {
+		head.vertices = finest.vertices;
+		head.faces    = finest.faces;
+	}
+	else if (head.faces < finest.faces || head.vertices > kMaxElements || head.faces > kMaxElements)
+		return corruptHead("impossible counts of the original");
 	end = chunk->end;
 	return head;
 }
+
+namespace {
+
+StreamFeatures featuresOf(const Head& head)
+{
+	StreamFeatures out;
+	out.restored         = head.has(kRestoration);
+	out.orderKept        = head.has(kOrder);
+	out.exact            = head.has(kExact);
+	out.attributes       = head.has(kAttributes);
+	out.restorationBytes = head.featureBytes[kRestoration];
+	out.orderBytes       = head.featureBytes[kOrder];
+	out.exactBytes       = head.featureBytes[kExact];
+	out.attributeBytes   = head.featureBytes[kAttributes];
+	return out;
+}
+
+} // namespace
 
 StreamInfo describe(const Head& head, std::size_t headEnd)
 {
@@ -295,8 +353,9 @@ StreamInfo describe(const Head& head, std::size_t headEnd)
 	info.bits         = head.lattice.bits;
 	info.origin       = head.lattice.origin;
 	info.step         = head.lattice.step;
-	info.vertices     = head.rows.back().vertices;
-	info.faces        = head.rows.back().faces;
+	info.vertices     = head.vertices;
+	info.faces        = head.faces;
+	info.features     = featuresOf(head);
 
 	std::uint64_t begin = headEnd, previous = 0; // of the chunk; end of the level before
 	for (std::size_t i = 0, first = 0; i < head.rows.size(); ++i) {
@@ -327,7 +386,14 @@ StreamInfo describe(const Head& head, std::size_t headEnd)
 		begin += chunkSize(payload);
 		first = i + 1;
 	}
-	info.bytes = begin;
+	for (int f = 0; f < kFeatures; ++f)
+		if (head.has(Feature(f)))
+			begin += chunkSize(head.featureBytes[std::size_t(f)]);
+	info.levels.back().vertices = head.vertices;
+	info.levels.back().faces    = head.faces;
+	info.levels.back().bytes += begin - previous;
+	info.levels.back().prefix = begin;
+	info.bytes                = begin;
 	return info;
 }
 

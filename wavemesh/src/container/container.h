@@ -11,11 +11,21 @@
 namespace wavemesh {
 
 constexpr std::uint8_t kVersionMajor = 0;
-constexpr std::uint8_t kVersionMinor = 1;
+constexpr std::uint8_t kVersionMinor = 2;
 
 /// Chunk types are letters; lower case means that a decoder may skip the chunk.
 constexpr std::uint8_t kHeadChunk  = 'H';
 constexpr std::uint8_t kLevelChunk = 'L';
+
+/// What comes behind the last level, one chunk each, in this order: bits of the head's features.
+enum Feature : std::uint8_t {
+	kRestoration = 0, ///< how the original's faces and vertices follow from the finest level's
+	kOrder       = 1, ///< the original's numbering
+	kExact       = 2, ///< the original's floating point numbers
+	kAttributes  = 3,
+};
+constexpr int kFeatures                         = 4;
+constexpr std::uint8_t kFeatureChunk[kFeatures] = {'R', 'O', 'X', 'A'};
 
 /// A level within the level chunks. A chunk holds one or more levels.
 struct LevelRow
@@ -26,7 +36,8 @@ struct LevelRow
 	std::uint32_t bytes             = 0; ///< of the chunk's payload
 	std::uint32_t connectivityBytes = 0; ///< of these
 	std::uint8_t errorCode          = 0; ///< see errorFromCode()
-	bool endsChunk                  = false;
+	int shift = 0; ///< positions are known to cells 2^shift lattice units wide; 0 in classic files
+	bool endsChunk = false;
 };
 
 struct Head
@@ -36,9 +47,16 @@ struct Head
 	Mode mode          = Mode::Classic;
 	int lifting        = kLiftingOff;
 	bool wgc           = false;
+	bool rich          = false; ///< are connectivity's contexts the rich ones?
 	Lattice lattice;
-	std::uint32_t digest = 0;   ///< digestOf() the finest level
-	std::vector<LevelRow> rows; ///< coarsest first
+	std::uint32_t digest   = 0; ///< digestOf() the finest level
+	std::uint8_t features  = 0; ///< bit i: the file has feature i
+	std::uint32_t vertices = 0; ///< of the original; with kRestoration, else the finest level's
+	std::uint32_t faces    = 0;
+	std::array<std::uint64_t, kFeatures> featureBytes {}; ///< payloads of the features' chunks
+	std::vector<LevelRow> rows;                           ///< coarsest first
+
+	bool has(Feature f) const { return (features >> f) & 1; }
 };
 
 /// The mean squared error `sum / count` as 6 bits of exponent and 2 of mantissa, in 1/256 square

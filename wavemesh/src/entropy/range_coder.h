@@ -75,12 +75,10 @@ public:
 
 	bool bit(bool, Probability p)
 	{
-		if (exhausted_)
-			return false;
 		const std::uint32_t middle =
 		    low_ + static_cast<std::uint32_t>((std::uint64_t(high_ - low_) * p) >> 16);
 		const bool value = code_ <= middle;
-		if (missing_ != 0 && value != ((code_ | missing_) <= middle)) {
+		if (missing_ != 0 && (exhausted_ || value != ((code_ | missing_) <= middle))) {
 			exhausted_ = true;
 			return false;
 		}

@@ -6,43 +6,55 @@ namespace wavemesh {
 std::vector<Index> firstCorners(const CornerTable& table)
 {
 	std::vector<Index> first(table.vertexCount, kNone);
-	for (Index c = 0; c < table.cornerCount(); ++c) {
-		const Index v = table.vertex[c];
-		if (first[v] == kNone || table.swingRight(c) == kNone)
-			first[v] = c;
-	}
+	for (Index f = 0; f < table.cornerCount(); f += 3)
+		for (Index k = 0; k < 3; ++k) {
+			const bool fanBegins = table.opposite[f + (k + 2) % 3] == kNone;
+			Index& c             = first[table.vertex[f + k]];
+			if (c == kNone || fanBegins)
+				c = f + k;
+		}
 	return first;
 }
 
 std::vector<Index> valences(const CornerTable& table)
 {
 	std::vector<Index> valence(table.vertexCount, 0);
-	for (Index c = 0; c < table.cornerCount(); ++c) {
-		++valence[table.vertex[c]];
-		if (table.swingRight(c) == kNone)
-			++valence[table.vertex[c]]; // a boundary fan has one edge more than faces
-	}
+	for (Index f = 0; f < table.cornerCount(); f += 3)
+		for (Index k = 0; k < 3; ++k) {
+			// a boundary fan has one edge more than faces
+			const bool fanBegins = table.opposite[f + (k + 2) % 3] == kNone;
+			valence[table.vertex[f + k]] += fanBegins ? 2 : 1;
+		}
 	return valence;
 }
 
 namespace {
 
-/// Corners sorted by vertex, as one array and offsets.
+/// Edges out of each vertex, as one array and offsets.
 struct VertexFans
 {
-	std::vector<Index> begin;   ///< #V + 1
-	std::vector<Index> corners; ///< #corners
+	struct Spoke
+	{
+		Index to;
+		Index facing; ///< corner that faces the edge
+	};
+	std::vector<Index> begin;  ///< #V + 1
+	std::vector<Spoke> spokes; ///< #corners
 
 	explicit VertexFans(const CornerTable& t) :
-	        begin(std::size_t(t.vertexCount) + 1, 0), corners(t.cornerCount())
+	        begin(std::size_t(t.vertexCount) + 1, 0), spokes(t.cornerCount())
 	{
 		for (const Index v : t.vertex)
-			++begin[v + 1];
-		for (Index v = 0; v < t.vertexCount; ++v)
-			begin[v + 1] += begin[v];
-		std::vector<Index> at(begin.begin(), begin.end() - 1);
-		for (Index c = 0; c < t.cornerCount(); ++c)
-			corners[at[t.vertex[c]]++] = c;
+			++begin[v];
+		Index sum = 0;
+		for (Index& b : begin)
+			b = sum += b;
+		// Filled from the back: what is left is where each vertex begins.
+		for (Index f = t.cornerCount(); f > 0;) {
+			f -= 3;
+			for (Index k = 3; k-- > 0;)
+				spokes[--begin[t.vertex[f + k]]] = {t.vertex[f + (k + 1) % 3], f + (k + 2) % 3};
+		}
 	}
 	Index size(Index v) const { return begin[v + 1] - begin[v]; }
 };
@@ -60,7 +72,7 @@ Status checkDirectedEdges(const CornerTable& t, const VertexFans& fans)
 		if (fans.size(v) == 0)
 			return {StatusCode::Unsupported, "vertex " + std::to_string(v) + " belongs to no face"};
 		for (Index i = fans.begin[v]; i < fans.begin[v + 1]; ++i) {
-			const Index to = t.vertex[nextCorner(fans.corners[i])];
+			const Index to = fans.spokes[i].to;
 			if (seenFrom[to] == v)
 				return {
 				    StatusCode::Unsupported,
@@ -74,18 +86,17 @@ Status checkDirectedEdges(const CornerTable& t, const VertexFans& fans)
 /// Links each edge from the end with the smaller fan, so that hubs cost nothing.
 void linkEdges(CornerTable& t, const VertexFans& fans)
 {
-	for (Index c = 0; c < t.cornerCount(); ++c) {
-		const Index to     = t.vertex[nextCorner(c)];
-		const Index from   = t.vertex[c];
-		const Index facing = prevCorner(c); // faces the edge from -> to
-		if (t.opposite[facing] != kNone || fans.size(to) > fans.size(from))
-			continue;
-		for (Index i = fans.begin[to]; i < fans.begin[to + 1]; ++i)
-			if (t.vertex[nextCorner(fans.corners[i])] == from) {
-				t.link(facing, prevCorner(fans.corners[i]));
-				break;
-			}
-	}
+	for (Index from = 0; from < t.vertexCount; ++from)
+		for (Index i = fans.begin[from]; i < fans.begin[from + 1]; ++i) {
+			const auto [to, facing] = fans.spokes[i];
+			if (t.opposite[facing] != kNone || fans.size(to) > fans.size(from))
+				continue;
+			for (Index k = fans.begin[to]; k < fans.begin[to + 1]; ++k)
+				if (fans.spokes[k].to == from) {
+					t.link(facing, fans.spokes[k].facing);
+					break;
+				}
+		}
 }
 
 /// Each vertex must have one fan.
@@ -113,7 +124,7 @@ buildCornerTable(const std::vector<std::array<std::uint32_t, 3>>& triangles, Ind
 {
 	CornerTable t;
 	t.vertexCount = vertexCount;
-	t.vertex.reserve(3 * triangles.size());
+	t.vertex.resize(3 * triangles.size());
 	for (std::size_t f = 0; f < triangles.size(); ++f) {
 		const auto& tri = triangles[f];
 		for (const Index v : tri)
@@ -124,7 +135,8 @@ buildCornerTable(const std::vector<std::array<std::uint32_t, 3>>& triangles, Ind
 				                                     ", which does not exist");
 		if (tri[0] == tri[1] || tri[1] == tri[2] || tri[2] == tri[0])
 			return Status(StatusCode::Unsupported, "face " + std::to_string(f) + " is degenerate");
-		t.vertex.insert(t.vertex.end(), tri.begin(), tri.end());
+		for (std::size_t k = 0; k < 3; ++k)
+			t.vertex[3 * f + k] = tri[k];
 	}
 	t.opposite.assign(t.vertex.size(), kNone);
 

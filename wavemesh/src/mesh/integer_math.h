@@ -18,16 +18,34 @@ inline std::int32_t wrappingSubtract(std::int32_t a, std::int32_t b)
 	return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
 }
 
+/// Number of binary digits: 0 for 0, 1 for 1, 3 for 4.
+inline int bitLength(std::uint64_t x)
+{
+#if defined(__GNUC__)
+	return x == 0 ? 0 : 64 - __builtin_clzll(x);
+#else
+	int n = 0;
+	for (; x != 0; x >>= 1)
+		++n;
+	return n;
+#endif
+}
+
 /// 4 log2(x), rounded down to a multiple of one with the leading bits for a fraction; 0 for x = 0.
 inline int log2Quarters(std::uint64_t x)
 {
 	if (x == 0)
 		return 0;
-	int length = 0;
-	for (std::uint64_t y = x; y != 0; y >>= 1)
-		++length;
+	const int length        = bitLength(x);
 	const std::uint64_t top = length >= 3 ? x >> (length - 3) : x << (3 - length);
 	return 4 * (length - 1) + static_cast<int>(top & 3);
+}
+
+/// a + b, or the largest number.
+inline std::uint64_t saturatingAdd(std::uint64_t a, std::uint64_t b)
+{
+	const std::uint64_t sum = a + b;
+	return sum < a ? ~std::uint64_t {0} : sum;
 }
 
 /// Squared distance; coordinates may be anything: 34-bit differences are clamped to 31 bits.

@@ -78,6 +78,23 @@ makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, doubl
 	return lattice;
 }
 
+std::vector<std::array<double, 3>> finitePositions(std::vector<std::array<double, 3>> positions)
+{
+	constexpr double kLargest = 1e300; // the extent stays finite
+	std::array<double, 3> low {};
+	std::array<bool, 3> any {};
+	for (const auto& p : positions)
+		for (std::size_t k = 0; k < 3; ++k)
+			if (std::isfinite(p[k])) {
+				low[k] = any[k] ? std::min(low[k], p[k]) : p[k];
+				any[k] = true;
+			}
+	for (auto& p : positions)
+		for (std::size_t k = 0; k < 3; ++k)
+			p[k] = std::clamp(std::isfinite(p[k]) ? p[k] : low[k], -kLargest, kLargest);
+	return positions;
+}
+
 std::vector<LatticePoint>
 quantise(const std::vector<std::array<double, 3>>& positions, const Lattice& lattice)
 {

@@ -21,6 +21,13 @@ struct Lattice
 	{
 		return {origin[0] + step * p[0], origin[1] + step * p[1], origin[2] + step * p[2]};
 	}
+	/// The same for a point in sixteenths of lattice units.
+	std::array<double, 3> positionOfSixteenths(const LatticePoint& p) const
+	{
+		return {
+		    origin[0] + step * (p[0] / 16.0), origin[1] + step * (p[1] / 16.0),
+		    origin[2] + step * (p[2] / 16.0)};
+	}
 };
 
 /// Lattice over the bounding box of `positions`: `step` model units a step if step > 0, else
@@ -29,6 +36,10 @@ struct Lattice
 ///         step that is negative, not finite or gives 2^24 steps or more.
 Result<Lattice>
 makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, double step);
+
+/// `positions` with something finite, of the same magnitude as the rest, for what makeLattice()
+/// would refuse: to be made good by the exact values.
+std::vector<std::array<double, 3>> finitePositions(std::vector<std::array<double, 3>> positions);
 
 /// Nearest lattice points, ties away from zero. #V by 3, 0..2^bits - 1.
 std::vector<LatticePoint>

@@ -2,6 +2,7 @@
 #include "multires/coarsen.h"
 
 #include "multires/coarsen_state.h"
+#include "multires/removal_error.h"
 #include "multires/sharpness.h"
 
 #include <algorithm>
@@ -18,17 +19,23 @@ public:
 	Search(
 	    const CornerTable& fine,
 	    const std::vector<LatticePoint>& positions,
-	    const GeometricalCriterion& criterion) :
+	    const GeometricalCriterion& criterion,
+	    const std::vector<std::uint8_t>& kept,
+	    const ErrorCriterion& errorCriterion) :
 	        fine_(fine),
-	        state_(fine), sharpness_(fine, positions, criterion), faceSeen_(fine.faceCount(), 0)
+	        state_(fine), sharpness_(fine, positions, criterion),
+	        error_(state_, positions, errorCriterion), faceSeen_(fine.faceCount(), 0)
 	{
+		for (Index v = 0; v < kept.size(); ++v)
+			if (kept[v])
+				state_.keep(v);
 	}
 
 	void run()
 	{
-		for (const bool extraordinary : {true, false})
+		for (const SeedKind kind : {kFewNeighbours, kManyNeighbours, kRegular})
 			for (Index v = 0; v < fine_.vertexCount; ++v)
-				if ((state_.valence(v) != 6) == extraordinary && !state_.isChild(v))
+				if (seedKind(v) == kind && !state_.isChild(v))
 					seed(v);
 		for (Index v = 0; v < fine_.vertexCount; ++v)
 			addAlone(v);
@@ -37,17 +44,34 @@ public:
 	const CoarsenState& state() const { return state_; }
 
 private:
+	/// Extraordinary vertices fix the parity of a subdivision, hubs too.
+	enum SeedKind { kFewNeighbours, kManyNeighbours, kRegular };
+	SeedKind seedKind(Index v) const
+	{
+		const int valence = state_.valence(v);
+		return valence < 6 ? kFewNeighbours : valence > 6 ? kManyNeighbours : kRegular;
+	}
+
 	struct Task
 	{
 		Index child;
 		int side;
 	};
 
-	bool add(const ChildOf* proposals, int count)
+	/// Do the criteria let these vertices go? Two at once complete a 4:1 merge.
+	bool allows(const ChildOf* proposals, int count) const
 	{
 		for (int i = 0; i < count; ++i)
-			if (!state_.isChild(proposals[i].child) && !sharpness_.allows(proposals[i]))
+			if (!state_.isChild(proposals[i].child) &&
+			    !(sharpness_.allows(proposals[i]) && error_.allows(proposals[i], count == 2)))
 				return false;
+		return true;
+	}
+
+	bool add(const ChildOf* proposals, int count)
+	{
+		if (!allows(proposals, count))
+			return false;
 		bool fresh[2] = {false, false};
 		for (int i = 0; i < count; ++i)
 			fresh[i] = !state_.isChild(proposals[i].child);
@@ -66,9 +90,12 @@ private:
 	/// Lets the edges around `v` end in children straight behind them, then grows from there.
 	void seed(Index v)
 	{
-		const Star s = state_.star(v);
-		for (int i = 0; i < s.size && s.size <= Star::kMax; ++i)
-			addOpposite(s.ring[i], v);
+		const Index begin = state_.star(v).corner[0]; // a hub's ring is not kept
+		Index c           = begin;
+		do {
+			addOpposite(fine_.vertex[nextCorner(c)], v);
+			c = fine_.swingLeft(c);
+		} while (c != kNone && c != begin);
 		grow();
 	}
 
@@ -77,7 +104,7 @@ private:
 	{
 		if (state_.isChild(child) || state_.isParent(child) || state_.isChild(parent))
 			return;
-		const Star s = state_.star(child);
+		const Star& s = state_.star(child);
 		if (s.size != 6 || s.boundary)
 			return;
 		const int at = s.find(parent);
@@ -111,10 +138,9 @@ private:
 	/// 4:1 on one side of a child, if the state allows it.
 	bool mergeFour(Index child, int sideIndex)
 	{
-		Side side[2];
-		if (sideIndex >= state_.sides(child, side))
+		if (sideIndex >= CoarsenState::sideCount(state_.star(child)))
 			return true;
-		const Side& s    = side[sideIndex];
+		const Side s     = state_.side(child, sideIndex);
 		const Index apex = s.count == 2 ? state_.across(s.corner[1]) : kNone;
 		if (apex == kNone)
 			return false;
@@ -128,10 +154,7 @@ private:
 	/// Best pattern that the state still allows on one side of a child.
 	void growSide(Index child, int sideIndex)
 	{
-		Side side[2];
-		if (sideIndex >= state_.sides(child, side))
-			return;
-		const Side& s = side[sideIndex];
+		const Side s = state_.side(child, sideIndex);
 		if (s.count == 2) {
 			if (mergeFour(child, sideIndex))
 				return;
@@ -200,35 +223,41 @@ private:
 		return score;
 	}
 
-	/// Makes v a child of the pair of neighbours that leaves the best valences and the fewest
-	/// flips and parents.
+	/// What the error of a removal takes from its score: at the limit as much as bad valences do.
+	double errorScore(const ChildOf& p) const
+	{
+		return error_.active() ? 20 * error_.relative(p) : 0;
+	}
+
+	/// Makes v a child of the pair of neighbours that leaves the smallest error, the best valences
+	/// and the fewest flips and parents.
 	bool addBest(Index v)
 	{
 		if (state_.isChild(v) || state_.isParent(v))
 			return false;
-		const Star s = state_.star(v);
+		const Star& s = state_.star(v);
 		if (s.size > Star::kMax)
 			return false;
 		struct Option
 		{
-			int score;
+			double score;
 			Index a, b;
-		} options[15];
+		} options[5];
 		int count = 0;
 		for (int i = 0; i < s.size; ++i)
 			for (int k = i + 2; k < s.size; ++k) {
-				Side side[2];
-				const int n = state_.sides(s, s.ring[i], s.ring[k], side);
-				if (n == 0)
+				if (!CoarsenState::fits(s, i, k))
 					continue;
 				int score = (staysAnyway(s.ring[i]) ? 8 : 0) + (staysAnyway(s.ring[k]) ? 8 : 0);
-				for (int m = 0; m < n; ++m)
-					score += sideScore(side[m]);
-				options[count++] = {score, s.ring[i], s.ring[k]};
+				for (int m = 0; m < CoarsenState::sideCount(s); ++m)
+					score += sideScore(CoarsenState::side(s, i, k, m));
+				const double total = score - errorScore({v, s.ring[i], s.ring[k]});
+				// The best first, and of equals the one found first.
+				int at = count++;
+				for (; at > 0 && options[at - 1].score < total; --at)
+					options[at] = options[at - 1];
+				options[at] = {total, s.ring[i], s.ring[k]};
 			}
-		std::stable_sort(options, options + count, [](const Option& a, const Option& b) {
-			return a.score > b.score;
-		});
 		for (int i = 0; i < count; ++i) {
 			const ChildOf p {v, options[i].a, options[i].b};
 			if (add(&p, 1))
@@ -242,13 +271,16 @@ private:
 	{
 		if (addBest(v))
 			grow();
-		else if (!sharpness_.active() || !sharpness_.isSharp(v))
+		else if (
+		    (!sharpness_.active() || !sharpness_.isSharp(v)) && state_.valence(v) == 3 &&
+		    error_.allowsCentre(v))
 			state_.addCentre(v);
 	}
 
 	const CornerTable& fine_;
 	CoarsenState state_;
 	Sharpness sharpness_;
+	RemovalError error_;
 	std::vector<std::uint8_t> faceSeen_;
 	std::vector<Task> fresh_, sides_;
 	std::vector<Index> faces_; ///< corners
@@ -314,7 +346,7 @@ private:
 
 	void emitCentre(Index v)
 	{
-		const Star s = state_.star(v);
+		const Star& s = state_.star(v);
 		out_.centre.resize(out_.faceCode.size(), kNone);
 		out_.centre.push_back(v);
 		face(
@@ -324,10 +356,10 @@ private:
 
 	void emitChild(Index m)
 	{
-		Side side[2];
-		const int n = state_.sides(m, side);
-		for (int i = 0; i < n; ++i)
-			emitSide(m, side[i], state_.pattern(m, side[i], i));
+		for (int i = 0; i < CoarsenState::sideCount(state_.star(m)); ++i) {
+			const Side side = state_.side(m, i);
+			emitSide(m, side, state_.pattern(m, side, i));
+		}
 	}
 
 	/// The edge of child m is keyed by its half towards the first parent.
@@ -417,9 +449,11 @@ private:
 Coarsening coarsen(
     const CornerTable& fine,
     const std::vector<LatticePoint>& positions,
-    const GeometricalCriterion& criterion)
+    const GeometricalCriterion& criterion,
+    const std::vector<std::uint8_t>& kept,
+    const ErrorCriterion& errorCriterion)
 {
-	Search search(fine, positions, criterion);
+	Search search(fine, positions, criterion, kept, errorCriterion);
 	search.run();
 	return Emission(search.state()).run();
 }

@@ -23,6 +23,17 @@ struct GeometricalCriterion
 	double deviation = 0.25;
 };
 
+class Quadrics;
+
+/// Only the vertices go whose removal makes the smallest errors (removal_error.h).
+struct ErrorCriterion
+{
+	const Quadrics* quadrics = nullptr; ///< of M^j; null: not active
+	/// Of the vertices that could go, those with the smallest errors may: this share. 0..1
+	double share = 0.75;
+	bool active() const { return quadrics != nullptr; }
+};
+
 /// M^{j-1} and its relation to M^j, in the numbering of M^j.
 struct Coarsening
 {
@@ -38,11 +49,14 @@ struct Coarsening
 
 /// @param fine       M^j, vertices without faces not allowed
 /// @param positions  #V_j by 3, lattice units, |x| < 2^30; guide the criterion and the choice only
+/// @param kept       #V_j: 1 for vertices that must stay; empty if any may go
 /// @return M^{j-1}; the same connectivity with coarse.vertexCount == fine.vertexCount if nothing
 ///         could be merged. Linear.
 Coarsening coarsen(
     const CornerTable& fine,
     const std::vector<LatticePoint>& positions,
-    const GeometricalCriterion& criterion);
+    const GeometricalCriterion& criterion,
+    const std::vector<std::uint8_t>& kept = {},
+    const ErrorCriterion& errorCriterion  = {});
 
 } // namespace wavemesh

@@ -7,71 +7,94 @@
 namespace wavemesh {
 
 CoarsenState::CoarsenState(const CornerTable& fine) :
-        fine_(fine), first_(firstCorners(fine)), valence_(valences(fine)),
-        parents_(fine.vertexCount, {kNone, kNone, kNone}), childCount_(fine.vertexCount, 0),
-        coarseValence_(valence_.begin(), valence_.end()),
-        flip_(fine.vertexCount, {Pattern::Invalid, Pattern::Invalid}),
-        edgeHead_(fine.vertexCount, kNone)
+        fine_(fine), vertex_(fine.vertexCount), stars_(fine.vertexCount)
 {
+	for (Index c = 0; c < fine.cornerCount(); ++c) {
+		const Index v        = fine.vertex[c];
+		const bool fanBegins = fine.opposite[prevCorner(c)] == kNone;
+		if (fanBegins || vertex_[v].valence == 0)
+			stars_[v].corner[0] = c;
+		stars_[v].boundary = stars_[v].boundary || fanBegins;
+		vertex_[v].valence += fanBegins ? 2 : 1; // a boundary fan has one edge more than faces
+	}
+	for (Index v = 0; v < fine.vertexCount; ++v) {
+		vertex_[v].coarseValence = int(vertex_[v].valence);
+		findStar(v);
+	}
 }
 
 // ---- stars and sides --------------------------------------------------------------------------
 
-Star CoarsenState::star(Index v) const
+void CoarsenState::findStar(Index v)
 {
-	Star s;
-	if (valence_[v] > Star::kMax) {
+	Star& s = stars_[v];
+	if (vertex_[v].valence > Star::kMax) {
 		s.size = Star::kMax + 1;
-		return s;
+		return;
 	}
-	const Index begin = first_[v];
-	Index c           = begin;
-	do {
-		s.ring[s.size]     = fine_.vertex[nextCorner(c)];
-		s.corner[s.size++] = c;
-		const Index left   = fine_.swingLeft(c);
-		if (left == kNone) {
-			s.boundary         = true;
-			s.ring[s.size]     = fine_.vertex[prevCorner(c)];
-			s.corner[s.size++] = kNone;
+	s.size       = std::int8_t(vertex_[v].valence);
+	const int n  = s.boundary ? s.size - 1 : s.size;
+	Index corner = s.corner[0];
+	for (int i = 0;; ++i) {
+		const Index next = nextCorner(corner);
+		s.ring[i]        = fine_.vertex[next];
+		s.corner[i]      = corner;
+		if (i + 1 == n) {
+			if (s.boundary) {
+				s.ring[n]   = fine_.vertex[prevCorner(corner)];
+				s.corner[n] = kNone;
+			}
+			return;
 		}
-		c = left;
-	} while (c != kNone && c != begin);
+		corner = nextCorner(fine_.opposite[next]);
+	}
+}
+
+Side CoarsenState::sideAt(const Star& star, int from, int count)
+{
+	const auto wrapped = [&](int i) { return i < star.size ? i : i - star.size; };
+	Side s;
+	s.count     = count;
+	s.from      = star.ring[from];
+	s.corner[0] = star.corner[from];
+	int at      = wrapped(from + 1);
+	s.inner[0]  = star.ring[at];
+	s.corner[1] = star.corner[at];
+	at          = wrapped(at + 1);
+	if (count == 2) {
+		s.inner[1]  = star.ring[at];
+		s.corner[2] = star.corner[at];
+		at          = wrapped(at + 1);
+	}
+	s.to = star.ring[at];
 	return s;
 }
 
-int CoarsenState::sides(const Star& star, Index parentA, Index parentB, Side side[2]) const
+bool CoarsenState::fits(const Star& star, int a, int b)
 {
-	if (star.size > Star::kMax)
-		return 0;
-	const int a = star.find(parentA), b = star.find(parentB);
-	if (a < 0 || b < 0 || a == b)
-		return 0;
-	const auto fill = [&](Side& s, int from, int to) {
-		s.count = (to - from - 1 + star.size) % star.size;
-		if (s.count < 1 || s.count > 2)
-			return false;
-		s.from = star.ring[from];
-		s.to   = star.ring[to];
-		for (int i = 0; i <= s.count; ++i) {
-			const int at = (from + i) % star.size;
-			s.corner[i]  = star.corner[at];
-			if (i > 0)
-				s.inner[i - 1] = star.ring[at];
-		}
-		return true;
-	};
-	if (star.boundary) {
-		if (std::min(a, b) != 0 || std::max(a, b) != star.size - 1)
-			return 0;
-		return fill(side[0], 0, star.size - 1) ? 1 : 0;
-	}
-	return fill(side[0], a, b) && fill(side[1], b, a) ? 2 : 0;
+	if (star.boundary)
+		return (star.size == 3 || star.size == 4) && std::min(a, b) == 0 &&
+		       std::max(a, b) == star.size - 1;
+	const int left = star.between(a, b), right = star.size - 2 - left;
+	return left >= 1 && left <= 2 && right >= 1 && right <= 2;
 }
 
-int CoarsenState::sides(Index child, Side side[2]) const
+Side CoarsenState::side(const Star& star, int a, int b, int sideIndex)
 {
-	return sides(star(child), parents_[child][0], parents_[child][1], side);
+	if (star.boundary)
+		return sideAt(star, 0, star.size - 2);
+	return sideIndex == 0 ? sideAt(star, a, star.between(a, b))
+	                      : sideAt(star, b, star.between(b, a));
+}
+
+Side CoarsenState::sideWith(Index child, Index neighbour, int& sideIndex) const
+{
+	const Star& star = stars_[child];
+	const int a = vertex_[child].place[0], b = vertex_[child].place[1];
+	const int at    = star.find(neighbour);
+	const bool left = star.boundary || (a < b ? a < at && at < b : a < at || at < b);
+	sideIndex       = left ? 0 : 1;
+	return side(star, a, b, sideIndex);
 }
 
 // ---- patterns ---------------------------------------------------------------------------------
@@ -107,25 +130,23 @@ Pattern CoarsenState::patternWithoutFlip(const Side& s) const
 /// side that holds `child` must have one more inner vertex, which stays.
 bool CoarsenState::flipsWith(Index child, Index neighbour) const
 {
-	Side side[2];
-	const int n = sides(neighbour, side);
-	for (int i = 0; i < n; ++i)
-		for (int k = 0; k < side[i].count; ++k)
-			if (side[i].inner[k] == child)
-				return side[i].count == 2 && !isChild(side[i].inner[1 - k]);
-	return false;
+	if (isCentre(neighbour))
+		return false;
+	int index       = 0;
+	const Side side = sideWith(neighbour, child, index);
+	return side.count == 2 && !isChild(side.inner[side.inner[0] == child ? 1 : 0]);
 }
 
 Pattern CoarsenState::pattern(Index child, const Side& side, int sideIndex) const
 {
 	const Pattern p = patternWithoutFlip(side);
-	return p != Pattern::Invalid ? p : flip_[child][std::size_t(sideIndex)];
+	return p != Pattern::Invalid ? p : vertex_[child].flip[std::size_t(sideIndex)];
 }
 
 /// Makes sure the side has a pattern, reserving or releasing the edge of a flip.
 bool CoarsenState::settleSide(Index child, const Side& s, int sideIndex)
 {
-	const Pattern held = flip_[child][std::size_t(sideIndex)];
+	const Pattern held = vertex_[child].flip[std::size_t(sideIndex)];
 	if (patternWithoutFlip(s) != Pattern::Invalid) {
 		if (held != Pattern::Invalid)
 			release(child, s, sideIndex);
@@ -141,8 +162,8 @@ bool CoarsenState::settleSide(Index child, const Side& s, int sideIndex)
 	if (held != Pattern::Invalid)
 		return true;
 	// The edge that comes back adds one to the valences at its ends: prefer the lower ones.
-	const int atFrom     = coarseValence_[s.from] + coarseValence_[s.inner[1]];
-	const int atTo       = coarseValence_[s.to] + coarseValence_[s.inner[0]];
+	const int atFrom     = coarseValence(s.from) + coarseValence(s.inner[1]);
+	const int atTo       = coarseValence(s.to) + coarseValence(s.inner[0]);
 	const Pattern better = atFrom <= atTo ? Pattern::TwoFlipAtFrom : Pattern::TwoFlipAtTo;
 	const Pattern other  = atFrom <= atTo ? Pattern::TwoFlipAtTo : Pattern::TwoFlipAtFrom;
 	return reserve(child, s, sideIndex, better) || reserve(child, s, sideIndex, other);
@@ -162,7 +183,7 @@ std::array<Index, 2> flippedBack(const Side& s, Pattern flip)
 
 bool CoarsenState::reserve(Index child, const Side& s, int sideIndex, Pattern flip)
 {
-	Pattern& held = flip_[child][std::size_t(sideIndex)];
+	Pattern& held = vertex_[child].flip[std::size_t(sideIndex)];
 	if (held == flip)
 		return true;
 	const auto edge = flippedBack(s, flip);
@@ -170,13 +191,11 @@ bool CoarsenState::reserve(Index child, const Side& s, int sideIndex, Pattern fl
 	const Index neighbour = s.inner[flip == Pattern::TwoFlipAtFrom ? 0 : 1];
 	bool shared           = false;
 	if (isChild(neighbour)) {
-		Side other[2];
-		const int n = sides(neighbour, other);
-		for (int i = 0; i < n; ++i) {
-			const Pattern p = flip_[neighbour][std::size_t(i)];
+		for (int i = 0; i < sideCount(stars_[neighbour]); ++i) {
+			const Pattern p = vertex_[neighbour].flip[std::size_t(i)];
 			if (p == Pattern::Invalid)
 				continue;
-			const auto theirs = flippedBack(other[i], p);
+			const auto theirs = flippedBack(side(neighbour, i), p);
 			shared            = shared || (theirs[0] == edge[0] && theirs[1] == edge[1]) ||
 			         (theirs[0] == edge[1] && theirs[1] == edge[0]);
 		}
@@ -193,7 +212,7 @@ bool CoarsenState::reserve(Index child, const Side& s, int sideIndex, Pattern fl
 
 void CoarsenState::release(Index child, const Side& s, int sideIndex)
 {
-	Pattern& held   = flip_[child][std::size_t(sideIndex)];
+	Pattern& held   = vertex_[child].flip[std::size_t(sideIndex)];
 	const auto edge = flippedBack(s, held);
 	undo_.push_back({sideIndex ? Undo::FlipOfSide1 : Undo::FlipOfSide0, held, child, kNone});
 	held = Pattern::Invalid;
@@ -202,43 +221,47 @@ void CoarsenState::release(Index child, const Side& s, int sideIndex)
 
 bool CoarsenState::settle(Index child)
 {
-	Side side[2];
-	const int n = sides(child, side);
-	for (int i = 0; i < n; ++i)
-		if (!settleSide(child, side[i], i))
+	for (int i = 0; i < sideCount(stars_[child]); ++i)
+		if (!settleSide(child, side(child, i), i))
 			return false;
-	return n > 0;
+	return true;
+}
+
+/// Settles a child after a neighbour became one too: its other side sees no change.
+bool CoarsenState::settleSideWith(Index child, Index neighbour)
+{
+	int sideIndex   = 0;
+	const Side side = sideWith(child, neighbour, sideIndex);
+	return settleSide(child, side, sideIndex);
 }
 
 // ---- transactions -----------------------------------------------------------------------------
 
-bool CoarsenState::propose(const ChildOf& p, Star& s)
+bool CoarsenState::propose(const ChildOf& p)
 {
 	if (isChild(p.child) || isParent(p.child) || isChild(p.parentA) || isChild(p.parentB))
 		return false;
-	s = star(p.child);
-	Side side[2];
-	const int n = sides(s, p.parentA, p.parentB, side);
-	if (n == 0 || edgeInFine(p.parentA, p.parentB) || edgeInCoarse(p.parentA, p.parentB))
+	const Star& s = stars_[p.child];
+	const int a = s.find(p.parentA), b = s.find(p.parentB);
+	if (a < 0 || b < 0 || a == b || !fits(s, a, b) || edgeInFine(p.parentA, p.parentB) ||
+	    edgeInCoarse(p.parentA, p.parentB))
 		return false;
-	parents_[p.child] = {p.parentA, p.parentB, kNone};
-	++childCount_[p.parentA];
-	++childCount_[p.parentB];
+	Vertex& child = vertex_[p.child];
+	child.parents = {p.parentA, p.parentB, kNone};
+	child.place   = {std::uint8_t(a), std::uint8_t(b)};
+	++vertex_[p.parentA].childCount;
+	++vertex_[p.parentB].childCount;
+	// The new edge replaces those to the child: the valences of its ends stay.
 	for (int i = 0; i < s.size; ++i)
-		if (s.ring[i] != p.parentA && s.ring[i] != p.parentB)
-			--coarseValence_[s.ring[i]];
+		--vertex_[s.ring[i]].coarseValence;
 	undo_.push_back({Undo::Child, Pattern::Invalid, p.child, kNone});
 	addEdge(p.parentA, p.parentB);
-	// The edge replaces those to the child: the valences of its ends stay.
-	--coarseValence_[p.parentA];
-	--coarseValence_[p.parentB];
 	return true;
 }
 
 bool CoarsenState::add(const ChildOf* proposals, int count)
 {
 	undo_.clear();
-	Star stars[2];
 	bool fresh[2] = {false, false};
 	bool good     = true;
 	assert(count <= 2);
@@ -248,19 +271,21 @@ bool CoarsenState::add(const ChildOf* proposals, int count)
 			good = hasParents(p.child, p.parentA, p.parentB);
 			continue;
 		}
-		fresh[i] = propose(p, stars[i]);
+		fresh[i] = propose(p);
 		good     = fresh[i];
 	}
 	for (int i = 0; i < count && good; ++i) {
 		if (!fresh[i])
 			continue;
-		good = settle(proposals[i].child);
-		for (int k = 0; k < stars[i].size && good; ++k) {
-			const Index v = stars[i].ring[k];
-			if (isCentre(v))
-				good = false;
-			else if (isChild(v))
-				good = settle(v);
+		const Index child = proposals[i].child;
+		const Index other = proposals[count - 1 - i].child;
+		good              = settle(child);
+		const Star& s     = stars_[child];
+		for (int k = 0; k < s.size && good; ++k) {
+			const Index v = s.ring[k];
+			if (!isChild(v))
+				continue;
+			good = v == other ? settle(v) : !isCentre(v) && settleSideWith(v, child);
 		}
 	}
 	if (!good)
@@ -280,18 +305,18 @@ void CoarsenState::rollBack()
 			insertEdge(u.a, u.b);
 			break;
 		case Undo::FlipOfSide0:
-			flip_[u.a][0] = u.oldFlip;
+			vertex_[u.a].flip[0] = u.oldFlip;
 			break;
 		case Undo::FlipOfSide1:
-			flip_[u.a][1] = u.oldFlip;
+			vertex_[u.a].flip[1] = u.oldFlip;
 			break;
 		case Undo::Child: {
-			auto& p      = parents_[u.a];
-			const Star s = star(u.a);
+			auto& p       = vertex_[u.a].parents;
+			const Star& s = stars_[u.a];
 			for (int i = 0; i < s.size; ++i)
-				++coarseValence_[s.ring[i]];
-			--childCount_[p[0]];
-			--childCount_[p[1]];
+				++vertex_[s.ring[i]].coarseValence;
+			--vertex_[p[0]].childCount;
+			--vertex_[p[1]].childCount;
 			p = {kNone, kNone, kNone};
 			break;
 		}
@@ -301,9 +326,9 @@ void CoarsenState::rollBack()
 
 bool CoarsenState::addCentre(Index v)
 {
-	if (valence_[v] != 3 || isChild(v) || isParent(v))
+	if (vertex_[v].valence != 3 || isChild(v) || isParent(v))
 		return false;
-	const Star s = star(v);
+	const Star& s = stars_[v];
 	if (s.boundary || isChild(s.ring[0]) || isChild(s.ring[1]) || isChild(s.ring[2]))
 		return false;
 	// What is left must not be two faces back to back.
@@ -315,10 +340,10 @@ bool CoarsenState::addCentre(Index v)
 	if (behind[0] == behind[1] && behind[1] == behind[2] && behind[0] != kNone &&
 	    isChild(behind[0]))
 		return false;
-	parents_[v] = {s.ring[0], s.ring[1], s.ring[2]};
-	for (const Index p : parents_[v]) {
-		++childCount_[p];
-		--coarseValence_[p];
+	vertex_[v].parents = {s.ring[0], s.ring[1], s.ring[2]};
+	for (const Index p : vertex_[v].parents) {
+		++vertex_[p].childCount;
+		--vertex_[p].coarseValence;
 	}
 	return true;
 }
@@ -327,9 +352,12 @@ bool CoarsenState::addCentre(Index v)
 
 bool CoarsenState::edgeInFine(Index a, Index b) const
 {
-	if (valence_[a] > valence_[b])
+	if (vertex_[a].valence > vertex_[b].valence)
 		std::swap(a, b);
-	const Index begin = first_[a];
+	const Star& s = stars_[a];
+	if (s.size <= Star::kMax)
+		return s.find(b) >= 0;
+	const Index begin = s.corner[0];
 	Index c           = begin;
 	do {
 		if (fine_.vertex[nextCorner(c)] == b || fine_.vertex[prevCorner(c)] == b)
@@ -339,21 +367,18 @@ bool CoarsenState::edgeInFine(Index a, Index b) const
 	return false;
 }
 
-namespace {
-
 /// Edges are listed at their end with the smaller fan, so that lists stay short next to hubs.
-void orderEnds(const std::vector<Index>& valence, Index& a, Index& b)
+void CoarsenState::orderEnds(Index& a, Index& b) const
 {
-	if (valence[a] > valence[b] || (valence[a] == valence[b] && a > b))
+	const Index atA = vertex_[a].valence, atB = vertex_[b].valence;
+	if (atA > atB || (atA == atB && a > b))
 		std::swap(a, b);
 }
 
-} // namespace
-
 bool CoarsenState::edgeInCoarse(Index a, Index b) const
 {
-	orderEnds(valence_, a, b);
-	for (Index e = edgeHead_[a]; e != kNone; e = edges_[e].next)
+	orderEnds(a, b);
+	for (Index e = vertex_[a].edges; e != kNone; e = edges_[e].next)
 		if (edges_[e].to == b)
 			return true;
 	return false;
@@ -361,14 +386,14 @@ bool CoarsenState::edgeInCoarse(Index a, Index b) const
 
 void CoarsenState::insertEdge(Index a, Index b)
 {
-	++coarseValence_[a];
-	++coarseValence_[b];
-	orderEnds(valence_, a, b);
-	for (Index e = edgeHead_[a]; e != kNone; e = edges_[e].next)
+	++vertex_[a].coarseValence;
+	++vertex_[b].coarseValence;
+	orderEnds(a, b);
+	for (Index e = vertex_[a].edges; e != kNone; e = edges_[e].next)
 		if (edges_[e].to == b) {
 			++edges_[e].uses;
-			--coarseValence_[a]; // shared: one edge, counted once
-			--coarseValence_[b];
+			--vertex_[a].coarseValence; // shared: one edge, counted once
+			--vertex_[b].coarseValence;
 			return;
 		}
 	Index e = freeEdge_;
@@ -378,14 +403,14 @@ void CoarsenState::insertEdge(Index a, Index b)
 	}
 	else
 		freeEdge_ = edges_[e].next;
-	edges_[e]    = {b, edgeHead_[a], 1};
-	edgeHead_[a] = e;
+	edges_[e]        = {b, vertex_[a].edges, 1};
+	vertex_[a].edges = e;
 }
 
 void CoarsenState::eraseEdge(Index a, Index b)
 {
-	orderEnds(valence_, a, b);
-	for (Index* e = &edgeHead_[a]; *e != kNone; e = &edges_[*e].next)
+	orderEnds(a, b);
+	for (Index* e = &vertex_[a].edges; *e != kNone; e = &edges_[*e].next)
 		if (edges_[*e].to == b) {
 			const Index gone = *e;
 			if (--edges_[gone].uses > 0)
@@ -393,8 +418,8 @@ void CoarsenState::eraseEdge(Index a, Index b)
 			*e                = edges_[gone].next;
 			edges_[gone].next = freeEdge_;
 			freeEdge_         = gone;
-			--coarseValence_[a];
-			--coarseValence_[b];
+			--vertex_[a].coarseValence;
+			--vertex_[b].coarseValence;
 			return;
 		}
 	assert(false);

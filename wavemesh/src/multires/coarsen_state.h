@@ -14,10 +14,12 @@ namespace wavemesh {
 struct Star
 {
 	static constexpr int kMax = 6;
-	int size                  = 0; ///< neighbours; kMax + 1 if there are more
-	bool boundary             = false;
-	Index ring[kMax + 1];
-	Index corner[kMax + 1]; ///< corner at the centre of face (centre, ring[i], ring[i+1])
+	Index ring[kMax];
+	/// Corner at the centre of face (centre, ring[i], ring[i+1]); kNone behind the last face of a
+	/// boundary fan. Of a vertex with more neighbours the first is known, and no more.
+	Index corner[kMax];
+	std::int8_t size = 0; ///< neighbours; kMax + 1 if there are more
+	bool boundary    = false;
 
 	int find(Index v) const
 	{
@@ -26,6 +28,8 @@ struct Star
 				return i;
 		return -1;
 	}
+	/// Number of neighbours between two places, counter-clockwise.
+	int between(int from, int to) const { return to - from - 1 + (to > from ? 0 : size); }
 };
 
 /// The faces on one side of a child m, from parent `from` counter-clockwise to parent `to`:
@@ -66,19 +70,26 @@ public:
 	explicit CoarsenState(const CornerTable& fine);
 
 	const CornerTable& fine() const { return fine_; }
-	bool isChild(Index v) const { return parents_[v][0] != kNone; }
-	bool isParent(Index v) const { return childCount_[v] != 0; }
-	bool isCentre(Index v) const { return isChild(v) && parents_[v][2] != kNone; }
-	const std::array<Index, 3>& parents(Index v) const { return parents_[v]; }
-	int valence(Index v) const { return int(valence_[v]); }        ///< in M^j
-	int coarseValence(Index v) const { return coarseValence_[v]; } ///< in M^{j-1} as it stands
+	bool isChild(Index v) const { return vertex_[v].parents[0] != kNone; }
+	bool isParent(Index v) const { return vertex_[v].childCount != 0; }
+	bool isCentre(Index v) const { return isChild(v) && vertex_[v].parents[2] != kNone; }
+	const std::array<Index, 3>& parents(Index v) const { return vertex_[v].parents; }
+	int valence(Index v) const { return int(vertex_[v].valence); }        ///< in M^j
+	int coarseValence(Index v) const { return vertex_[v].coarseValence; } ///< in M^{j-1} so far
 
-	Star star(Index v) const;
-	/// Sides of v between two neighbours that are to be its parents: the left side first; a
-	/// boundary vertex has one. Returns their number, 0 if v cannot be a child of these.
-	int sides(const Star& star, Index parentA, Index parentB, Side side[2]) const;
-	/// Sides of a child.
-	int sides(Index child, Side side[2]) const;
+	const Star& star(Index v) const { return stars_[v]; }
+	/// Can a vertex be a child of the neighbours at two places of its ring, as far as its faces go?
+	static bool fits(const Star& star, int placeA, int placeB);
+	/// A vertex has two sides, the left one first; on the boundary one.
+	static int sideCount(const Star& star) { return star.boundary ? 1 : 2; }
+	/// One side of a vertex whose parents are to be at these places. @pre fits()
+	static Side side(const Star& star, int placeA, int placeB, int sideIndex);
+	/// One side of a child that is no centre.
+	Side side(Index child, int sideIndex) const
+	{
+		const auto& place = vertex_[child].place;
+		return side(stars_[child], place[0], place[1], sideIndex);
+	}
 	/// Pattern of a child's side as the state stands; vertices that are not children stay.
 	Pattern pattern(Index child, const Side& side, int sideIndex) const;
 	/// Vertex across the edge that the corner faces, or kNone.
@@ -88,6 +99,8 @@ public:
 		return o == kNone ? kNone : fine_.vertex[o];
 	}
 
+	/// `v` never becomes a child; it counts as a parent from now on.
+	void keep(Index v) { ++vertex_[v].childCount; }
 	/// Makes one or two vertices children, all or none. Vertices that are one already, with the
 	/// same parents, are skipped.
 	bool add(const ChildOf* proposals, int count);
@@ -95,6 +108,17 @@ public:
 	bool addCentre(Index v);
 
 private:
+	struct Vertex
+	{
+		std::array<Index, 3> parents {kNone, kNone, kNone}; ///< of a child; third only of a centre
+		Index valence     = 0;
+		int coarseValence = 0;
+		Index childCount  = 0;                ///< how many have it as parent
+		Index edges       = kNone;            ///< list of new edges
+		std::array<std::uint8_t, 2> place {}; ///< of a child: where its parents are in its ring
+		/// Of a child, by side: the flip that holds an edge reserved.
+		std::array<Pattern, 2> flip {Pattern::Invalid, Pattern::Invalid};
+	};
 	struct Undo
 	{
 		enum Kind : std::uint8_t { Child, EdgeAdded, EdgeRemoved, FlipOfSide0, FlipOfSide1 } kind;
@@ -102,8 +126,14 @@ private:
 		Index a, b; ///< the edge, or a the child
 	};
 
-	bool propose(const ChildOf& proposal, Star& star);
+	void findStar(Index v);
+	static Side sideAt(const Star& star, int from, int count);
+	/// The side of a child that holds a neighbour which is not its parent; tells its index.
+	Side sideWith(Index child, Index neighbour, int& sideIndex) const;
+
+	bool propose(const ChildOf& proposal);
 	bool settle(Index child);
+	bool settleSideWith(Index child, Index neighbour);
 	bool settleSide(Index child, const Side& side, int sideIndex);
 	bool reserve(Index child, const Side& side, int sideIndex, Pattern flip);
 	void release(Index child, const Side& side, int sideIndex);
@@ -111,6 +141,7 @@ private:
 
 	bool edgeInFine(Index a, Index b) const;
 	bool edgeInCoarse(Index a, Index b) const;
+	void orderEnds(Index& a, Index& b) const;
 	void addEdge(Index a, Index b);
 	void removeEdge(Index a, Index b);
 	void insertEdge(Index a, Index b);
@@ -120,17 +151,13 @@ private:
 	bool flipsWith(Index child, Index neighbour) const;
 	bool hasParents(Index v, Index a, Index b) const
 	{
-		return (parents_[v][0] == a && parents_[v][1] == b) ||
-		       (parents_[v][0] == b && parents_[v][1] == a);
+		const auto& p = vertex_[v].parents;
+		return (p[0] == a && p[1] == b) || (p[0] == b && p[1] == a);
 	}
 
 	const CornerTable& fine_;
-	std::vector<Index> first_;                  ///< #V: corner where the fan begins
-	std::vector<Index> valence_;                ///< #V
-	std::vector<std::array<Index, 3>> parents_; ///< #V: of a child; third only of a centre
-	std::vector<Index> childCount_;             ///< #V: how many have it as parent
-	std::vector<int> coarseValence_;            ///< #V
-	std::vector<std::array<Pattern, 2>> flip_; ///< #V by side: the flip that holds an edge reserved
+	std::vector<Vertex> vertex_; ///< #V
+	std::vector<Star> stars_;    ///< #V
 
 	/// Coarse edges that M^j does not have, in lists at the end with fewer neighbours.
 	struct NewEdge
@@ -138,7 +165,6 @@ private:
 		Index to, next;
 		int uses; ///< 2 if two 1:2 faces flip with each other
 	};
-	std::vector<Index> edgeHead_; ///< #V
 	std::vector<NewEdge> edges_;
 	Index freeEdge_ = kNone;
 

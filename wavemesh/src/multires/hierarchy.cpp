@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multires/hierarchy.h"
 
+#include "multires/quadrics.h"
 #include "multires/refine.h"
 
 namespace wavemesh {
@@ -8,19 +9,21 @@ namespace {
 
 /// Below this many vertices even a step that removes a single one is taken.
 constexpr Index kSmall = 48;
+/// ErrorCriterion::share where a smaller one leaves too much.
+constexpr double kLenientShare = 0.95;
 
 bool worthwhile(Index coarse, Index fine)
 {
 	return coarse < fine && (fine <= kSmall || coarse <= fine - fine / 16);
 }
 
-std::vector<LatticePoint>
-pick(const std::vector<LatticePoint>& positions, const std::vector<Index>& rows)
+template <class Value>
+std::vector<Value> pick(const std::vector<Value>& values, const std::vector<Index>& rows)
 {
-	std::vector<LatticePoint> out;
+	std::vector<Value> out;
 	out.reserve(rows.size());
 	for (const Index row : rows)
-		out.push_back(positions[row]);
+		out.push_back(values[row]);
 	return out;
 }
 
@@ -83,25 +86,68 @@ Refinement canonical(const CornerTable& parent, const Coarsening& step, std::vec
 	return r;
 }
 
+/// One step by its error; with less choice, and at last without, where that removes too little.
+Coarsening
+steer(
+    const CornerTable& fine,
+    const std::vector<LatticePoint>& points,
+    const std::vector<std::uint8_t>& kept,
+    ErrorCriterion criterion)
+{
+	for (const double share : {criterion.share, kLenientShare}) {
+		criterion.share = share;
+		Coarsening step = coarsen(fine, points, {}, kept, criterion);
+		if (worthwhile(step.coarse.vertexCount, fine.vertexCount))
+			return step;
+	}
+	return coarsen(fine, points, {}, kept);
+}
+
+/// One step by connectivity, and the geometrical criterion.
+Coarsening coarsenFreely(
+    const CornerTable& fine,
+    const std::vector<LatticePoint>& points,
+    const GeometricalCriterion& criterion,
+    const std::vector<std::uint8_t>& kept)
+{
+	Coarsening step = coarsen(fine, points, criterion, kept);
+	// Where nearly everything is sharp the criterion would stop the coarsening for good.
+	if (criterion.active && step.coarse.vertexCount > fine.vertexCount - fine.vertexCount / 4)
+		step = coarsen(fine, points, {}, kept);
+	return step;
+}
+
 } // namespace
 
 std::vector<Coarsening> coarsenAll(
     const CornerTable& table,
     const std::vector<LatticePoint>& positions,
     const GeometricalCriterion& criterion,
-    const std::function<bool(double)>& step)
+    const Steering& steering,
+    const std::function<bool(double)>& step,
+    const std::vector<std::uint8_t>& kept)
 {
 	std::vector<Coarsening> steps;
 	const CornerTable* fine          = &table;
 	std::vector<LatticePoint> points = positions;
-	for (;;) {
-		Coarsening next = coarsen(*fine, points, criterion);
-		// Where nearly everything is sharp the criterion would stop the coarsening for good.
-		if (criterion.active && next.coarse.vertexCount > fine->vertexCount - fine->vertexCount / 4)
-			next = coarsen(*fine, points, {});
+	std::vector<std::uint8_t> stay   = kept;
+	Quadrics quadrics;
+	if (steering.freeSteps != Steering::kNever)
+		quadrics = Quadrics(table, positions);
+	for (int i = 0;; ++i) {
+		Coarsening next =
+		    i < steering.freeSteps
+		        ? coarsenFreely(*fine, points, criterion, stay)
+		        : steer(
+		              *fine, points, stay,
+		              {&quadrics, i == steering.freeSteps ? steering.firstShare : steering.share});
 		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount))
 			break;
+		if (steering.freeSteps != Steering::kNever)
+			quadrics.carry(next, points);
 		points = pick(points, next.fineVertex);
+		if (!stay.empty())
+			stay = pick(stay, next.fineVertex);
 		steps.push_back(std::move(next));
 		fine = &steps.back().coarse;
 		if (!step(1 - double(fine->vertexCount) / double(table.vertexCount)))

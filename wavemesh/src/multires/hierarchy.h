@@ -8,9 +8,22 @@
 #include "multires/coarsen.h"
 
 #include <functional>
+#include <limits>
 
 namespace wavemesh {
 
+/// Which steps are steered by the error they make, and how strictly.
+struct Steering
+{
+	static constexpr int kNever = std::numeric_limits<int>::max();
+	/// So many of the finest steps are left to connectivity and the geometrical criterion.
+	int freeSteps = kNever;
+	/// ErrorCriterion::share of the first steered step, and of those after it.
+	double firstShare = 0.9, share = 0.75;
+};
+
+/// @param criterion  steers the steps that `steering` does not
+/// @param kept  #V: 1 for vertices that stay in every level; empty if any may go
 /// @param step  called after each level with the fraction of vertices gone, 0..1; false stops
 /// @return the coarsenings, finest first; empty if nothing can be merged
 /// Linear: each level costs as much as it has faces, and has at most 15/16 of the vertices of the
@@ -19,7 +32,9 @@ std::vector<Coarsening> coarsenAll(
     const CornerTable& table,
     const std::vector<LatticePoint>& positions,
     const GeometricalCriterion& criterion,
-    const std::function<bool(double)>& step);
+    const Steering& steering,
+    const std::function<bool(double)>& step,
+    const std::vector<std::uint8_t>& kept = {});
 
 struct ReplayedLevel
 {

@@ -40,7 +40,7 @@ Result<Replay> replayLevels(const MeshData& mesh, const MultiresolutionOptions& 
 	    options.wgc != Wgc::Off, options.wgcSharpness, options.wgcDeviation};
 	bool running = true;
 	auto coarsenings =
-	    coarsenAll(*table, quantise(mesh.positions, *lattice), criterion, [&](double fraction) {
+	    coarsenAll(*table, quantise(mesh.positions, *lattice), criterion, {}, [&](double fraction) {
 		    running = !options.progress || options.progress(0.8 * fraction);
 		    return running;
 	    });

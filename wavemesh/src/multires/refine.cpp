@@ -73,9 +73,10 @@ Placement place(const Refinement& r, Index face, Index firstDescendant)
 /// Corner among the descendants of c's face that faces half `half` of c's edge.
 Index outerCorner(const std::vector<Placement>& placements, Index c, int half)
 {
-	const Placement& p = placements[c / 3];
-	const int local    = (int(c % 3) + 3 - p.rotation) % 3;
-	return 3 * p.first + Index(kTemplates[p.id].outer[local][half]);
+	const Index face   = c / 3;
+	const Placement& p = placements[face];
+	const int turned   = int(c - 3 * face) - p.rotation;
+	return 3 * p.first + Index(kTemplates[p.id].outer[turned < 0 ? turned + 3 : turned][half]);
 }
 
 void flipEdge(CornerTable& t, Index c)
@@ -137,9 +138,10 @@ CornerTable refine(const CornerTable& parent, const Refinement& r)
 		const Index base   = 3 * p.first;
 		Index points[7];
 		for (Index i = 0; i < 3; ++i) {
-			const Index c = 3 * f + (p.rotation + i) % 3;
-			points[i]     = parent.vertex[c];
-			points[3 + i] = r.childOnEdge[c];
+			const Index turned = p.rotation + i;
+			const Index c      = 3 * f + (turned < 3 ? turned : turned - 3);
+			points[i]          = parent.vertex[c];
+			points[3 + i]      = r.childOnEdge[c];
 		}
 		points[6] = p.id == kCentre ? centre++ : kNone;
 		for (int k = 0; k < t.faces; ++k)
@@ -151,7 +153,7 @@ CornerTable refine(const CornerTable& parent, const Refinement& r)
 
 		for (Index i = 0; i < 3; ++i) {
 			const Index c = 3 * f + i, d = parent.opposite[c];
-			if (d == kNone || d / 3 > f)
+			if (d == kNone || d > 3 * f + 2)
 				continue; // linked from the face that comes later
 			fine.link(outerCorner(placements, c, 0), outerCorner(placements, d, 1));
 			if (r.childOnEdge[c] != kNone)

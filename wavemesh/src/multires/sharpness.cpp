@@ -1,26 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "multires/sharpness.h"
 
+#include "mesh/vector_math.h"
+
 namespace wavemesh {
-namespace {
-
-using Vector = std::array<double, 3>;
-
-Vector difference(const LatticePoint& a, const LatticePoint& b)
-{
-	return {double(a[0] - b[0]), double(a[1] - b[1]), double(a[2] - b[2])};
-}
-Vector cross(const Vector& a, const Vector& b)
-{
-	return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double squaredNorm(const Vector& a)
-{
-	return a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-}
-
-} // namespace
-
 Sharpness::Sharpness(
     const CornerTable& fine,
     const std::vector<LatticePoint>& positions,
@@ -30,7 +13,7 @@ Sharpness::Sharpness(
 {
 	if (!criterion.active)
 		return;
-	std::vector<Vector> normal(fine.faceCount());
+	std::vector<Vector3> normal(fine.faceCount());
 	for (Index f = 0; f < fine.faceCount(); ++f) {
 		const auto& a = positions[fine.vertex[3 * f]];
 		normal[f]     = cross(
@@ -46,7 +29,7 @@ Sharpness::Sharpness(
 		bool sharp = across == kNone;
 		if (!sharp) {
 			// |n1 x n2| compared squared, which needs no normalisation
-			const Vector &n1 = normal[c / 3], &n2 = normal[across / 3];
+			const Vector3 &n1 = normal[c / 3], &n2 = normal[across / 3];
 			sharp = squaredNorm(cross(n1, n2)) > threshold * squaredNorm(n1) * squaredNorm(n2);
 		}
 		if (sharp)
@@ -58,10 +41,10 @@ bool Sharpness::allows(const ChildOf& p) const
 {
 	if (!criterion_.active || !isSharp(p.child))
 		return true;
-	const auto& a      = positions_[p.parentA];
-	const auto& b      = positions_[p.parentB];
-	const Vector edge  = difference(a, b);
-	const Vector twice = {
+	const auto& a       = positions_[p.parentA];
+	const auto& b       = positions_[p.parentB];
+	const Vector3 edge  = difference(a, b);
+	const Vector3 twice = {
 	    2.0 * positions_[p.child][0] - a[0] - b[0], 2.0 * positions_[p.child][1] - a[1] - b[1],
 	    2.0 * positions_[p.child][2] - a[2] - b[2]};
 	const double length = squaredNorm(edge);

@@ -6,6 +6,7 @@
 
 #include "entropy/models.h"
 #include "mesh/integer_math.h"
+#include "syntax/glue_syntax.h"
 
 #include <unordered_set>
 
@@ -15,22 +16,28 @@ struct BaseMesh
 {
 	CornerTable table;
 	std::vector<LatticePoint> positions;
+	Glue glue {}; ///< empty unless the file says that vertices are glued
 };
 
 template <class Coder>
 class BaseSyntax
 {
 public:
-	explicit BaseSyntax(Coder& coder, int bits) : coder_(coder)
+	/// @param glued  may vertices be copies of others?
+	BaseSyntax(Coder& coder, int bits, bool glued = false) :
+	        coder_(coder), glued_(glued), glue_(coder)
 	{
 		last_.fill(static_cast<std::int32_t>(1u << (bits - 1)));
 	}
 
 	/// Writes `base`; `source` tells the vertex of `base` behind each vertex of the coded order.
 	/// Returns the mesh in the coded order: what read() gives.
-	BaseMesh write(const BaseMesh& base, std::vector<Index>& source)
+	/// @param group  if glued: #V, of the vertices of `base`, see GlueSyntax::write()
+	BaseMesh write(
+	    const BaseMesh& base, std::vector<Index>& source, const std::vector<Index>* group = nullptr)
 	{
 		base_ = &base;
+		glue_.write(group);
 		codedAs_.assign(base.table.vertexCount, kNone);
 		faceDone_.assign(base.table.faceCount(), 0);
 		source.clear();
@@ -39,6 +46,7 @@ public:
 		BaseMesh out;
 		out.table     = std::move(buildCornerTable(triangles_, base.table.vertexCount).value());
 		out.positions = std::move(positions_);
+		out.glue      = glue_.take();
 		return out;
 	}
 
@@ -51,7 +59,7 @@ public:
 		auto table = buildCornerTable(triangles_, vertices);
 		if (positions_.size() != vertices || !table.ok())
 			return Status(StatusCode::Corrupt, "the base mesh is not a manifold");
-		return BaseMesh {std::move(*table), std::move(positions_)};
+		return BaseMesh {std::move(*table), std::move(positions_), glue_.take()};
 	}
 
 private:
@@ -79,8 +87,11 @@ private:
 			}
 			Index v[3];
 			for (Index k = 0; k < 3; ++k)
-				v[k] = newVertex(vertexAt(corner, k), last_, startModels_);
-			if (positions_.size() > vertices || !addFace(v[0], v[1], v[2], corner))
+				v[k] = newVertex(
+				    vertexAt(corner, k), k > 0 ? v[0] : kNone, k > 1 ? v[1] : kNone, last_,
+				    startModels_);
+			if (glue_.failed() || positions_.size() > vertices ||
+			    !addFace(v[0], v[1], v[2], corner))
 				return coder_.exhausted() ? truncated() : corrupt();
 			while (!gates_.empty()) {
 				const Gate gate = gates_.back();
@@ -124,13 +135,15 @@ private:
 				predicted[k] = wrappingSubtract(
 				    wrappingAdd(positions_[gate.from][k], positions_[gate.to][k]),
 				    positions_[gate.behind][k]);
-			v = newVertex(kReading ? kNone : base_->table.vertex[corner], predicted, tipModels_);
+			v = newVertex(
+			    kReading ? kNone : base_->table.vertex[corner], gate.from, gate.to, predicted,
+			    tipModels_);
 		}
 		else
 			v = codeKnown(gate, tip);
 		if (coder_.exhausted())
 			return truncated();
-		if (positions_.size() > vertices || triangles_.size() >= faces ||
+		if (glue_.failed() || positions_.size() > vertices || triangles_.size() >= faces ||
 		    !addFace(gate.to, gate.from, v, kReading ? kNone : corner))
 			return corrupt();
 		return {};
@@ -147,11 +160,19 @@ private:
 		return codeRaw(coder_, bitLength(positions_.size() - 1), tip);
 	}
 
+	/// @param from, to  its neighbours that are known, or kNone
 	Index newVertex(
-	    Index source, const LatticePoint& predicted, std::array<AdaptiveSigned<31>, 3>& models)
+	    Index source,
+	    Index from,
+	    Index to,
+	    const LatticePoint& predicted,
+	    std::array<AdaptiveSigned<31>, 3>& models)
 	{
+		const Index first = glued_ ? glue_.next(source, from, to) : kNone;
 		LatticePoint p {};
-		for (std::size_t k = 0; k < 3; ++k) {
+		if (first != kNone)
+			p = positions_[first];
+		for (std::size_t k = 0; k < 3 && first == kNone; ++k) {
 			std::int64_t residual = 0;
 			if constexpr (!kReading)
 				residual = wrappingSubtract(base_->positions[source][k], predicted[k]);
@@ -184,6 +205,8 @@ private:
 			faceDone_[corner / 3] = 1;
 		}
 		triangles_.push_back({a, b, c});
+		if (glued_)
+			glue_.addFace(a, b, c);
 		for (int k = 0; k < 3; ++k) {
 			const Index from = v[k], to = v[(k + 1) % 3], behind = v[(k + 2) % 3];
 			if (from == to || !edges_.insert(key(from, to)).second)
@@ -199,6 +222,8 @@ private:
 	}
 
 	Coder& coder_;
+	bool glued_;
+	GlueSyntax<Coder> glue_;
 	std::vector<std::array<Index, 3>> triangles_;
 	std::vector<LatticePoint> positions_;
 	std::vector<Gate> gates_;

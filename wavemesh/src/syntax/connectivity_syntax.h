@@ -7,13 +7,26 @@
 #include "entropy/models.h"
 #include "mesh/integer_math.h"
 #include "multires/refine.h"
+#include "syntax/split_contexts.h"
+#include "syntax/valence_forecast.h"
+
+#include <optional>
 
 namespace wavemesh {
+
+/// Which contexts connectivity is coded with.
+enum class Contexts : std::uint8_t {
+	Fast, ///< what the faces next to an edge tell
+	Rich, ///< lengths known around, valences to come; half as fast
+};
 
 /// Learned state of the connectivity; lives through all levels of a file.
 class ConnectivityModels
 {
 public:
+	explicit ConnectivityModels(Contexts c) : contexts(c) {}
+	Contexts contexts;
+
 	static constexpr int kSplitInputs = 5;
 	static constexpr int kLengths     = 12; ///< classes of a ratio of lengths
 
@@ -23,6 +36,15 @@ public:
 	std::vector<AdaptiveBit> splitByEnds {4 * 4 * 4 * 4 * 3};
 	std::vector<AdaptiveBit> splitByShape {kLengths * kLengths * 9};
 	Mixer<kSplitInputs> splitMixer {7 * 7};
+
+	static constexpr int kRichInputs = 8;
+	std::vector<AdaptiveBit> splitByGlobal {SplitContexts::kGlobal * 7 * 7};
+	std::vector<AdaptiveBit> splitByLocal {SplitContexts::kLocal * 7 * 7};
+	std::vector<AdaptiveBit> splitByBoth {SplitContexts::kGlobal * SplitContexts::kLocal};
+	std::vector<AdaptiveBit> splitByExcess {SplitContexts::kExcess * kLengths};
+	std::vector<AdaptiveBit> splitByOuter {SplitContexts::kOuter * SplitContexts::kExcess};
+	PairMixer<kRichInputs> splitPairMixer {7 * 7};
+	SplitLengths splitLengths;
 
 	static constexpr int kDiagonalInputs = 2;
 	std::vector<AdaptiveBit> diagonalByValences {5 * 5 * 3};
@@ -34,6 +56,12 @@ public:
 	std::vector<AdaptiveBit> flipByNeighbours {3 * 3 * 5};
 	Mixer<kFlipInputs> flipMixer {1};
 	std::vector<AdaptiveBit> flipSide {kLengths * 3};
+
+	static constexpr int kRichFlipInputs = 4;
+	static constexpr int kFlipGains      = 13; ///< classes of ValenceForecast::flipGain()
+	std::vector<AdaptiveBit> flipByValences {8 * 13};
+	std::vector<AdaptiveBit> flipByGain {kLengths * kFlipGains};
+	Mixer<kRichFlipInputs> richFlipMixer {1, kAgileRates};
 
 	AdaptiveBit hasCentres;
 	AdaptiveBit centre;
@@ -54,9 +82,20 @@ public:
 	    const std::vector<LatticePoint>& positions) :
 	        coder_(coder),
 	        models_(models), parent_(parent), positions_(positions), valence_(valences(parent)),
-	        known_(parent.cornerCount(), kUnknown), splitsAt_(parent.vertexCount, 0),
-	        wholesAt_(parent.vertexCount, 0)
+	        length_(parent.cornerCount()), known_(parent.cornerCount(), kUnknown),
+	        splitsAt_(parent.vertexCount, 0), wholesAt_(parent.vertexCount, 0)
 	{
+		for (Index f = 0; f < parent.cornerCount(); f += 3)
+			for (Index k = 0; k < 3; ++k) {
+				const Index d = parent.opposite[f + k];
+				length_[f + k] =
+				    d < f + k
+				        ? length_[d]
+				        : std::uint8_t(lengthOf(
+				              parent.vertex[f + (k + 1) % 3], parent.vertex[f + (k + 2) % 3]));
+			}
+		if (models.contexts == Contexts::Rich)
+			lengths_.emplace(parent, length_, valence_, models.splitLengths);
 	}
 
 	void code(Refinement& r)
@@ -79,25 +118,22 @@ private:
 	const LatticePoint& at(Index v) const { return positions_[v]; }
 	int lengthOf(Index a, Index b) const { return log2Quarters(squaredDistance(at(a), at(b))); }
 
-	static int clampTo(int x, int low, int high)
+	static int clampTo(int x, int low, int high) { return std::clamp(x, low, high) - low; }
+	int valenceClass(Index v) const
 	{
-		return x < low ? 0 : x > high ? high - low : x - low;
+		const Index valence = valence_[v];
+		return valence < 8 ? static_cast<int>(std::max(valence, Index {3}) - 3) : 5;
 	}
-	int valenceClass(Index v) const { return clampTo(static_cast<int>(valence_[v]), 3, 8); }
 	/// Class of a difference of log2Quarters() of squared lengths, 0..kLengths-1.
-	static int ratioClass(int quarters)
-	{
-		return clampTo(quarters >= 0 ? quarters / 2 : -((1 - quarters) / 2), -5, 6);
-	}
+	static int ratioClass(int quarters) { return clampTo(quarters >> 1, -5, 6); }
 
 	/// What is known of the other two edges of corner c's face: 0..5, 6 without a face.
 	int faceState(Index c) const
 	{
 		if (c == kNone)
 			return 6;
-		const int splits = (known_[nextCorner(c)] == kSplit) + (known_[prevCorner(c)] == kSplit);
-		const int wholes = (known_[nextCorner(c)] == kWhole) + (known_[prevCorner(c)] == kWhole);
-		return splits == 0 ? wholes : splits == 1 ? 3 + wholes : 5;
+		constexpr std::uint8_t kStates[3][3] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
+		return kStates[known_[nextCorner(c)]][known_[prevCorner(c)]];
 	}
 
 	void codeSplits(Refinement& r)
@@ -118,22 +154,28 @@ private:
 		}
 	}
 
-	bool codeSplit(Index c, Index d, bool split)
+	/// What both sets of contexts know of an edge, the same from either side.
+	struct Edge
 	{
-		const Index a = next(c), b = prev(c), l = parent_.vertex[c];
-		const Index o = d == kNone ? kNone : parent_.vertex[d];
+		Index corner;
+		int states; ///< of the two faces, 0..48
+		int left, right;
+		int ratio; ///< length against the edges around
+		std::size_t byFaces, byValences, byEnds;
+	};
 
+	Edge describe(Index c, Index d) const
+	{
+		const Index a = next(c), b = prev(c);
 		int left = faceState(c), right = faceState(d);
 		// Mean of the edges around, in quarters of an octave of squared length.
-		const int own   = lengthOf(a, b);
-		int around      = lengthOf(a, l) + lengthOf(b, l);
-		around          = o == kNone ? around / 2 : (around + lengthOf(a, o) + lengthOf(b, o)) / 4;
-		const int ratio = ratioClass(own - around);
-		// How far the far vertices are apart, against the edge: high for narrow pairs of faces.
-		const int across = o == kNone ? 0 : ratioClass(lengthOf(l, o) - own - 4);
+		int around      = length_[nextCorner(c)] + length_[prevCorner(c)];
+		around          = d == kNone ? around / 2
+		                             : (around + length_[nextCorner(d)] + length_[prevCorner(d)]) / 4;
+		const int ratio = ratioClass(length_[c] - around);
 
-		int va = valenceClass(a), vb = valenceClass(b), vl = valenceClass(l);
-		int vo = o == kNone ? 0 : valenceClass(o);
+		int va = valenceClass(a), vb = valenceClass(b), vl = valenceClass(parent_.vertex[c]);
+		int vo = d == kNone ? 0 : valenceClass(parent_.vertex[d]);
 		if (left > right)
 			std::swap(left, right);
 		if (va > vb)
@@ -143,26 +185,64 @@ private:
 		int ea = endState(a), eb = endState(b);
 		if (ea > eb)
 			std::swap(ea, eb);
+		const int states = left * 7 + right;
+		return {
+		    c,
+		    states,
+		    left,
+		    right,
+		    ratio,
+		    index((states * 5 + std::min(vl, 4)) * 5 + std::min(vo, 4)),
+		    index(((va * 6 + vb) * 6 + vl) * 6 + vo),
+		    index((ea * 16 + eb) * 3 + (left >= 3) + (right >= 3))};
+	}
 
-		ConnectivityModels& m = models_;
-		const int lr          = left * 7 + right;
-		split                 = m.splitMixer.code(
-		                    coder_,
-		                    {&m.splitByFaces[index((lr * 5 + std::min(vl, 4)) * 5 + std::min(vo, 4))],
-		                     &m.splitByLength[index(ratio * 49 + lr)],
-		                     &m.splitByValences[index(((va * 6 + vb) * 6 + vl) * 6 + vo)],
-		                     &m.splitByEnds[index((ea * 16 + eb) * 3 + (left >= 3) + (right >= 3))],
-		                     &m.splitByShape[index(
-		                         (ratio * 12 + across) * 9 + (left / 2 % 3) * 3 + right / 2 % 3)]},
-		                    lr, split, 255);
-		known_[c] = split ? kSplit : kWhole;
+	bool codeSplit(Index c, Index d, bool split)
+	{
+		const Edge edge = describe(c, d);
+		split           = lengths_ ? codeRich(edge, split) : codeFast(edge, d, split);
+		known_[c]       = split ? kSplit : kWhole;
 		if (d != kNone)
 			known_[d] = known_[c];
-		for (const Index v : {a, b}) {
+		for (const Index v : {next(c), prev(c)}) {
 			std::uint8_t& count = split ? splitsAt_[v] : wholesAt_[v];
 			if (count < 3)
 				++count;
 		}
+		return split;
+	}
+
+	bool codeFast(const Edge& e, Index d, bool split)
+	{
+		// How far the far vertices are apart, against the edge: high for narrow pairs of faces.
+		const int across      = d == kNone ? 0
+		                                   : ratioClass(
+		                                         lengthOf(parent_.vertex[e.corner], parent_.vertex[d]) -
+		                                         length_[e.corner] - 4);
+		ConnectivityModels& m = models_;
+		return m.splitMixer.code(
+		    coder_,
+		    {&m.splitByFaces[e.byFaces], &m.splitByLength[index(e.ratio * 49 + e.states)],
+		     &m.splitByValences[e.byValences], &m.splitByEnds[e.byEnds],
+		     &m.splitByShape[index(
+		         (e.ratio * 12 + across) * 9 + (e.left / 2 % 3) * 3 + e.right / 2 % 3)]},
+		    e.states, split, 255);
+	}
+
+	bool codeRich(const Edge& e, bool split)
+	{
+		const SplitContexts::Classes l = lengths_->classesOf(e.corner, known_);
+		ConnectivityModels& m          = models_;
+		split                          = m.splitPairMixer.code(
+		                             coder_,
+		                             {&m.splitByFaces[e.byFaces], &m.splitByValences[e.byValences], &m.splitByEnds[e.byEnds],
+		                              &m.splitByGlobal[index(l.global * 49 + e.states)],
+		                              &m.splitByLocal[index(l.local * 49 + e.states)],
+		                              &m.splitByBoth[index(l.global * SplitContexts::kLocal + l.local)],
+		                              &m.splitByExcess[index(l.excess * 12 + e.ratio)],
+		                              &m.splitByOuter[index(l.outer * SplitContexts::kExcess + l.excess)]},
+		                             e.states, split, 180);
+		lengths_->learn(e.corner, split);
 		return split;
 	}
 
@@ -172,6 +252,8 @@ private:
 	{
 		r.hasCentres = codeBit(coder_, models_.hasCentres, r.hasCentres);
 		std::vector<std::uint8_t> flipped(parent_.faceCount(), 0);
+		if (models_.contexts == Contexts::Rich)
+			forecast_.emplace(parent_, valence_, r);
 		for (Index f = 0; f < parent_.faceCount() && !coder_.exhausted(); ++f) {
 			const FaceShape shape = faceShape(r.childOnEdge, f);
 			FaceCode& code        = r.faceCode[f];
@@ -209,6 +291,8 @@ private:
 		     &models_.diagonalByLength[index(ratioClass(d2 - d1))]},
 		    0, code == kFaceDiagonal1, 255);
 		code = one ? kFaceDiagonal1 : kFaceNone;
+		if (forecast_)
+			forecast_->diagonal(corner, one);
 	}
 	/// Four times the squared distance from v to the middle of a and b.
 	std::uint64_t distanceToMiddle(Index v, Index a, Index b) const
@@ -232,13 +316,28 @@ private:
 		const int gain1 = can1 ? flipGain(corner, c1) : 0;
 		const int gain2 = can2 ? flipGain(corner, c2) : 0;
 		const int high = std::max(gain1, gain2), low = std::min(gain1, gain2);
-		const bool flip = models_.flipMixer.code(
-		    coder_,
-		    {&models_.flipByLength[index(high * 12 + low)],
-		     &models_.flipByNeighbours[index(
-		         (partner(r, c1, can1) * 3 + partner(r, c2, can2)) * 5 +
-		         std::min(valenceClass(parent_.vertex[corner]), 4))]},
-		    0, code != kFaceNone, 255);
+		const std::size_t byLength     = index(high * 12 + low);
+		const std::size_t byNeighbours = index(
+		    (partner(r, c1, can1) * 3 + partner(r, c2, can2)) * 5 +
+		    std::min(valenceClass(parent_.vertex[corner]), 4));
+		ConnectivityModels& m = models_;
+		bool flip             = code != kFaceNone;
+		if (forecast_) {
+			const int gain = std::max(
+			    can1 ? flipGainClass(corner, c1) : 0, can2 ? flipGainClass(corner, c2) : 0);
+			const int child = clampTo(forecast_->of(r.childOnEdge[corner]), 8, 15);
+			const int apex  = clampTo(forecast_->of(parent_.vertex[corner]), 8, 20);
+			flip            = m.richFlipMixer.code(
+			               coder_,
+			               {&m.flipByLength[byLength], &m.flipByNeighbours[byNeighbours],
+			                &m.flipByValences[index(child * 13 + apex)],
+			                &m.flipByGain[index(high * ConnectivityModels::kFlipGains + gain)]},
+			               0, flip, 255);
+		}
+		else
+			flip = m.flipMixer.code(
+			    coder_, {&m.flipByLength[byLength], &m.flipByNeighbours[byNeighbours]}, 0, flip,
+			    255);
 		if (!flip)
 			return;
 		bool second = !can1;
@@ -249,6 +348,12 @@ private:
 		const Index edge                    = second ? c2 : c1;
 		flipped[edge / 3]                   = 1;
 		flipped[parent_.opposite[edge] / 3] = 1;
+		if (forecast_)
+			forecast_->flip(corner, edge);
+	}
+	int flipGainClass(Index corner, Index edge) const
+	{
+		return 1 + clampTo(forecast_->flipGain(corner, edge) >> 1, -4, 7);
 	}
 	int partner(const Refinement& r, Index edge, bool can) const
 	{
@@ -259,7 +364,7 @@ private:
 	int flipGain(Index corner, Index edge) const
 	{
 		const Index across = parent_.opposite[edge];
-		const int own = lengthOf(next(edge), prev(edge)) + 8; // four times the square, below too
+		const int own      = length_[edge] + 8; // four times the square, below too
 		return ratioClass(
 		    own -
 		    log2Quarters(distanceToMiddle(parent_.vertex[across], next(corner), prev(corner))));
@@ -272,8 +377,13 @@ private:
 	const CornerTable& parent_;
 	const std::vector<LatticePoint>& positions_;
 	std::vector<Index> valence_;
+	std::vector<std::uint8_t> length_;              ///< #corners: lengthOf() the edge it faces
 	std::vector<Known> known_;                      ///< #corners
 	std::vector<std::uint8_t> splitsAt_, wholesAt_; ///< #V: known edges, at most 3
+
+	// Rich contexts only.
+	std::optional<SplitContexts> lengths_;
+	std::optional<ValenceForecast> forecast_;
 };
 
 } // namespace wavemesh

@@ -216,10 +216,7 @@ private:
 
 	bool codeNode(int node, bool value)
 	{
-		std::array<AdaptiveBit*, DetailModels::kInputs> inputs;
-		for (std::size_t i = 0; i < inputs.size(); ++i)
-			inputs[i] = rows_[i] + node;
-		return models_.mixer.code(coder_, inputs, node, value, 255);
+		return models_.mixer.code(coder_, rows_, std::size_t(node), node, value, 255);
 	}
 
 	std::int32_t codeValue(std::int32_t value)

@@ -69,6 +69,15 @@ LatticePoint middle(const std::vector<LatticePoint>& positions, const std::array
 	return m;
 }
 
+void keepStill(const Glue& glue, UpdateWeights& weights)
+{
+	if (glue.empty())
+		return;
+	for (std::size_t e = 0; e < weights.vertex.size(); ++e)
+		if (glue.isShared(weights.vertex[e]))
+			weights.alpha[e] = 0;
+}
+
 std::vector<LatticePoint>
 analyse(const Parents& parents, const UpdateWeights& weights, std::vector<LatticePoint>& positions)
 {

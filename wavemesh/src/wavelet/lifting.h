@@ -4,6 +4,7 @@
 /// (13)-(15), and the update of the parents by lifting (16)-(25).
 #pragma once
 
+#include "mesh/glue.h"
 #include "multires/refinement.h"
 
 namespace wavemesh {
@@ -32,6 +33,9 @@ struct UpdateWeights
 /// Cost O(1) a child.
 UpdateWeights updateWeights(
     const CornerTable& parent, const Refinement& refinement, const Parents& parents, int disc);
+
+/// Takes all weights from the vertices that are glued to others, so that these stay together.
+void keepStill(const Glue& glue, UpdateWeights& weights);
 
 /// Splits positions of level j into those of level j-1 and details.
 ///

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "encode/compact.h"
+
+#include "syntax/base_syntax.h"
+#include "syntax/connectivity_syntax.h"
+#include "syntax/position_syntax.h"
+
+namespace wavemesh {
+namespace {
+
+/// Rows [from, to) of the positions, as cells 2^shift lattice units wide.
+void appendCells(
+    const std::vector<LatticePoint>& positions,
+    std::size_t from,
+    std::size_t to,
+    int shift,
+    std::vector<LatticePoint>& cells)
+{
+	for (std::size_t v = from; v < to; ++v)
+		cells.push_back(
+		    {positions[v][0] >> shift, positions[v][1] >> shift, positions[v][2] >> shift});
+}
+
+/// By split: squared distances from the middle of the parents, of all vertices that come with it
+/// and later.
+std::vector<std::uint64_t> missingDetails(const Levels& levels, const std::vector<Parents>& parents)
+{
+	std::vector<std::uint64_t> sums(levels.splits() + 1, 0);
+	for (std::size_t i = levels.splits(); i-- > 0;) {
+		sums[i]           = sums[i + 1];
+		std::size_t child = levels.table(i).vertexCount;
+		for (const auto& p : parents[i])
+			sums[i] = saturatingAdd(
+			    sums[i], squaredDistance(levels.positions[child++], middle(levels.positions, p)));
+	}
+	return sums;
+}
+
+/// Of the vertices of a level, where a decoder that stops there puts them. Lattice units.
+std::uint64_t squaredErrors(
+    const Levels& levels, std::size_t split, int shift, const std::vector<LatticePoint>& cells)
+{
+	if (shift == 0)
+		return 0;
+	const auto likely = likelyPositions(levels.table(split), cells, shift, levels.glue);
+	std::uint64_t sum = 0;
+	for (std::size_t v = 0; v < cells.size(); ++v) {
+		LatticePoint truth = levels.positions[v];
+		for (std::int32_t& x : truth)
+			x *= 16;
+		sum = saturatingAdd(sum, squaredDistance(likely[v], truth));
+	}
+	return sum / 256;
+}
+
+} // namespace
+
+bool writeCompact(
+    const Levels& levels,
+    const Schedule& schedule,
+    Head& head,
+    std::vector<std::uint8_t>& chunks,
+    const Stage& stage)
+{
+	const std::vector<LatticePoint>& truth = levels.positions;
+	const int bits                         = head.lattice.bits;
+	std::vector<Parents> parents;
+	for (const ReplayedLevel& level : levels.replay.levels)
+		parents.push_back(parentsOf(level.parent, level.refinement));
+	const std::vector<std::uint64_t> missing = missingDetails(levels, parents);
+
+	LevelWriter writer(head, chunks);
+	ConnectivityModels connectivityModels(head.rich ? Contexts::Rich : Contexts::Fast);
+	const auto models = std::make_unique<CompactModels>();
+	std::size_t split = 0; // levels of connectivity so far, less the base
+	int shift         = schedule.baseShift;
+	std::vector<LatticePoint> cells;
+	cells.reserve(truth.size());
+	const auto endLevel = [&](LevelKind kind, std::size_t step) {
+		LevelRow row;
+		row.kind     = kind;
+		row.vertices = std::uint32_t(cells.size());
+		row.faces    = std::uint32_t(levels.table(split).faceCount());
+		row.shift    = shift;
+		row.errorCode = errorCode(
+		    saturatingAdd(missing[split], squaredErrors(levels, split, shift, cells)),
+		    truth.size());
+		writer.endLevel(row, step == schedule.steps.size());
+	};
+
+	appendCells(truth, 0, levels.table(0).vertexCount, shift, cells);
+	{
+		const BaseMesh base {levels.table(0), cells, {}};
+		std::vector<Index> ignored;
+		BaseSyntax<RangeEncoder>(writer.coder(), bits - shift, head.has(kRestoration))
+		    .write(base, ignored, &levels.group);
+	}
+	endLevel(LevelKind::Base, 0);
+	for (std::size_t i = 0; i < schedule.steps.size(); ++i) {
+		const ScheduleStep& step = schedule.steps[i];
+		if (step.kind == LevelKind::Split) {
+			const ReplayedLevel& level = levels.replay.levels[split];
+			Refinement refinement      = level.refinement;
+			ConnectivitySyntax<RangeEncoder>(
+			    writer.coder(), connectivityModels, level.parent, cells)
+			    .code(refinement);
+			writer.connectivityEnds();
+			const CornerTable& child = levels.table(++split);
+			appendCells(truth, cells.size(), child.vertexCount, shift, cells);
+			PositionSyntax<RangeEncoder>(writer.coder(), *models, child, bits, levels.glue)
+			    .codeChildren(level.parent, refinement, parents[split - 1], shift, cells);
+		}
+		else {
+			shift -= step.bits;
+			std::vector<LatticePoint> finer;
+			finer.reserve(cells.size());
+			appendCells(truth, 0, cells.size(), shift, finer);
+			PositionSyntax<RangeEncoder>(
+			    writer.coder(), *models, levels.table(split), bits, levels.glue)
+			    .codeBits(shift, step.bits, cells, finer);
+		}
+		endLevel(step.kind, i + 1);
+		if (!stage(double(i + 1) / double(schedule.steps.size())))
+			return false;
+	}
+	return true;
+}
+
+} // namespace wavemesh

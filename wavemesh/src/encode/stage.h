@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Progress of a part of the work within the whole.
+#pragma once
+
+#include <wavemesh/codec.h>
+
+namespace wavemesh {
+
+/// Maps the progress of one stage, 0..1, into its part of the whole.
+class Stage
+{
+public:
+	Stage(const Progress& progress, double from, double to) :
+	        progress_(progress), from_(from), to_(to)
+	{
+	}
+	/// False: the user wants to stop.
+	bool operator()(double fraction) const
+	{
+		return !progress_ || progress_(from_ + fraction * (to_ - from_));
+	}
+	Stage part(double from, double to) const
+	{
+		return {progress_, from_ + from * (to_ - from_), from_ + to * (to_ - from_)};
+	}
+
+private:
+	const Progress& progress_;
+	double from_, to_;
+};
+
+inline Status cancelled()
+{
+	return {StatusCode::Cancelled, "cancelled"};
+}
+
+} // namespace wavemesh

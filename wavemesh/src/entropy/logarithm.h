@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Logarithms and powers of two in integers (docs/wmc_format.md gives their definition).
+#pragma once
+
+#include "mesh/integer_math.h"
+
+namespace wavemesh {
+
+struct LogarithmTables
+{
+	std::array<std::uint16_t, 1024> log2; ///< log2(1 + i/1024) in 1/4096, rounded down
+	std::array<std::uint16_t, 8> exp2;    ///< 2^(i/8) in 1/4096, rounded down
+	LogarithmTables();
+};
+extern const LogarithmTables kLogarithm;
+
+/// log2(x) in 1/4096, from the eleven leading bits. @pre x > 0
+inline std::int32_t log2Fixed(std::uint64_t x)
+{
+	const int length             = bitLength(x);
+	const std::uint64_t mantissa = length > 11 ? x >> (length - 11) : x << (11 - length);
+	return 4096 * (length - 1) + kLogarithm.log2[static_cast<std::size_t>(mantissa & 1023)];
+}
+
+/// log2(x) in eighths, rounded down. @pre x > 0
+inline int log2Eighths(std::uint64_t x)
+{
+	return log2Fixed(x) >> 9;
+}
+
+/// 2^(eighths / 8) in 1/4096. @pre -80 <= eighths <= 80
+inline std::int32_t exp2Eighths(int eighths)
+{
+	const std::int32_t mantissa = kLogarithm.exp2[static_cast<std::size_t>(eighths & 7)];
+	return (mantissa * (1 << ((eighths >> 3) + 10))) >> 10;
+}
+
+} // namespace wavemesh

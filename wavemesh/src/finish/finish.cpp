@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "finish/finish.h"
+
+#include "container/byte_io.h"
+#include "syntax/exact_syntax.h"
+#include "syntax/restoration_syntax.h"
+
+namespace wavemesh {
+namespace {
+
+using Positions = std::vector<std::array<double, 3>>;
+
+std::uint32_t digestOf(const RestoredMesh& mesh)
+{
+	ByteWriter out;
+	out.bytes.reserve(12 * mesh.points.size() + 12 * mesh.triangles.size());
+	for (const LatticePoint& p : mesh.points)
+		for (const std::int32_t x : p)
+			out.fixed(static_cast<std::uint32_t>(x));
+	for (const auto& t : mesh.triangles)
+		for (const Index v : t)
+			out.fixed(v);
+	return checksum(out.bytes.data(), out.bytes.size());
+}
+
+std::uint32_t digestOf(const Positions& positions)
+{
+	ByteWriter out;
+	out.bytes.reserve(24 * positions.size());
+	for (const auto& p : positions)
+		for (const double x : p)
+			out.real64(x);
+	return checksum(out.bytes.data(), out.bytes.size());
+}
+
+/// A chunk's payload: the digest, then what `code` writes.
+template <class Code>
+void writeFeature(
+    Feature feature, std::uint32_t digest, Head& head, std::vector<std::uint8_t>& chunks, Code code)
+{
+	RangeEncoder coder;
+	code(coder);
+	ByteWriter out;
+	out.fixed(digest);
+	const auto stream = coder.finish();
+	out.bytes.insert(out.bytes.end(), stream.begin(), stream.end());
+	head.featureBytes[feature] = out.bytes.size();
+	writeChunk(kFeatureChunk[feature], out.bytes, chunks);
+}
+
+/// Codes the coordinates of a restored mesh next to its lattice points.
+template <class Coder>
+void codeExact(
+    Coder& coder,
+    const Lattice& lattice,
+    const std::vector<LatticePoint>& points,
+    Positions& values)
+{
+	bool wide = false;
+	if constexpr (!Coder::kReading)
+		for (const auto& p : values)
+			for (const double x : p)
+				wide = wide || !isFloat(x);
+	ExactSyntax<Coder> syntax(coder, codeRaw(coder, 1, wide) != 0);
+	values.resize(points.size());
+	for (std::size_t v = 0; v < points.size() && !coder.exhausted(); ++v) {
+		const auto predicted = lattice.position(points[v]);
+		for (std::size_t k = 0; k < 3; ++k)
+			values[v][k] = syntax.code(predicted[k], lattice.step, k, values[v][k]);
+	}
+}
+
+Status wrongDigest(const char* what)
+{
+	return {StatusCode::ChecksumMismatch, std::string(what) + " does not match its digest"};
+}
+
+} // namespace
+
+std::uint8_t featuresFor(const EncodeOptions& options, const ManifoldCut& cut)
+{
+	return std::uint8_t(
+	    (cut.changed() ? 1 << kRestoration : 0) | (options.exact ? 1 << kExact : 0));
+}
+
+void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>& chunks)
+{
+	head.vertices = Index(from.original.positions.size());
+	head.faces    = Index(from.original.triangles.size());
+	if (head.features == 0)
+		return;
+	const RestoredNumbers numbers = restoredNumbers(from.glue, from.finest.vertexCount);
+	RestoredSource source;
+	Restoration r = whatToRestore(
+	    from.cut, from.original, head.lattice, from.finest, from.source, numbers, source);
+	const RestoredMesh restored = restore(from.finest, from.positions, numbers, r);
+	if (head.has(kRestoration))
+		writeFeature(kRestoration, digestOf(restored), head, chunks, [&](RangeEncoder& coder) {
+			(void)RestorationSyntax<RangeEncoder>(
+			    coder, from.finest, numbers.count, head.lattice.bits)
+			    .code(r, head.vertices, head.faces);
+		});
+	if (head.has(kExact)) {
+		Positions values;
+		values.reserve(source.vertex.size());
+		for (const Index v : source.vertex)
+			values.push_back(from.original.positions[v]);
+		writeFeature(kExact, digestOf(values), head, chunks, [&](RangeEncoder& coder) {
+			codeExact(coder, head.lattice, restored.points, values);
+		});
+	}
+}
+
+Finish::Finish(
+    const Head& head,
+    const CornerTable& finest,
+    const std::vector<LatticePoint>& positions,
+    const Glue& glue) :
+        head_(head),
+        finest_(finest), positions_(positions), numbers_(restoredNumbers(glue, finest.vertexCount)),
+        restored_(restore(finest, positions, numbers_, {}))
+{
+}
+
+Status Finish::apply(Feature feature, const std::uint8_t* payload, std::size_t size)
+{
+	ByteReader in(payload, size);
+	std::uint32_t digest = 0;
+	in.fixed(digest);
+	if (in.failed())
+		return {StatusCode::Corrupt, "a chunk behind the levels is too short"};
+	RangeDecoder coder(payload + in.position(), size - in.position());
+	switch (feature) {
+	case kRestoration:
+		return restoration(coder, digest);
+	case kExact:
+		return exact(coder, digest);
+	default:
+		return {StatusCode::Corrupt, "a chunk behind the levels is of an unknown kind"};
+	}
+}
+
+Status Finish::restoration(RangeDecoder& coder, std::uint32_t digest)
+{
+	Restoration r;
+	Status s = RestorationSyntax<RangeDecoder>(coder, finest_, numbers_.count, head_.lattice.bits)
+	               .code(r, head_.vertices, head_.faces);
+	if (coder.exhausted())
+		return {StatusCode::Corrupt, "the restoration ends although its chunk is whole"};
+	if (!s.ok())
+		return s;
+	restored_ = restore(finest_, positions_, numbers_, r);
+	return digestOf(restored_) == digest ? Status() : wrongDigest("the restored mesh");
+}
+
+Status Finish::exact(RangeDecoder& coder, std::uint32_t digest)
+{
+	codeExact(coder, head_.lattice, restored_.points, exact_);
+	if (coder.exhausted())
+		return {StatusCode::Corrupt, "the exact coordinates end although their chunk is whole"};
+	return digestOf(exact_) == digest ? Status() : wrongDigest("an exact coordinate");
+}
+
+MeshData Finish::mesh() const
+{
+	MeshData out;
+	out.triangles = restored_.triangles;
+	out.positions = exact_;
+	if (exact_.empty())
+		for (const LatticePoint& p : restored_.points)
+			out.positions.push_back(head_.lattice.position(p));
+	return out;
+}
+
+} // namespace wavemesh

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Everything the compact mode learns about positions; lives through all levels of a file.
+#pragma once
+
+#include "entropy/mixed_value.h"
+#include "predict/least_squares.h"
+#include "predict/value_counts.h"
+
+#include <optional>
+
+namespace wavemesh {
+
+/// Predictors whose expected error is judged from the errors around.
+enum Predictor : std::uint8_t {
+	kSmooth,         ///< butterfly rule; of a known vertex: mean of all parallelograms
+	kParallelograms, ///< mean of the known parallelograms
+	kRing,           ///< mean of the known neighbours
+	kBetween,        ///< between the middle and kParallelograms, or beyond them
+	kSimilar,        ///< like the neighbours' own offsets
+	kParallelogram,  ///< the first known parallelogram
+	kSurfaceNarrow,  ///< least squares; the error across the surface small against that along it
+	kSurface,        ///< least squares; both as they are around
+	kPredictors
+};
+
+/// Predictors that are exact or of no use, each with its own shapes of errors in whole cells.
+enum Repeat : std::uint8_t {
+	kRepeatMiddle,
+	kRepeatParallelograms,
+	kRepeatParallelogram,
+	kRepeatMatch, ///< the neighbour that agrees best in the coordinates already known
+	kRepeatLast,  ///< the last known neighbour
+	kRepeatBest,  ///< the predictor that was best in the coordinates already known
+	kRepeatFirst, ///< the first parent, or the first known neighbour
+	kRepeats
+};
+static_assert(std::size_t(kPredictors) + std::size_t(kRepeats) == MixedValue::kMaxOpinions);
+
+constexpr std::size_t kOffsetFeatures = 7;
+
+/// What is learnt about one kind of coding: the positions of new vertices, or the bits of known
+/// ones.
+struct PositionModels
+{
+	MixedValue value;
+	std::array<std::array<ResidualShape, 3>, kPredictors> shapes; ///< by class of expected error
+	std::array<std::array<std::array<ResidualShape, 4>, 3>, kRepeats> repeats; ///< by axis, context
+	/// Error against the length around, log2 in 1/128, running.
+	std::array<std::array<std::int32_t, 3>, kPredictors> ratio;
+	std::array<std::int32_t, 2> normalRatio; ///< the same across and along the surface
+	std::array<LeastSquares<kOffsetFeatures>, 4> offset;
+	std::array<LeastSquares<kOffsetFeatures + 2>, 4> height;
+
+	PositionModels()
+	{
+		for (auto& r : ratio)
+			r.fill(-20 * 16);
+		normalRatio.fill(-20 * 16);
+	}
+};
+
+/// Errors that a vertex had when it was last coded, log2 in eighths, and what else its neighbours
+/// learn from it.
+struct VertexRecord
+{
+	std::array<std::array<std::uint8_t, 3>, kPredictors> error;
+	std::array<std::uint8_t, 2> normalError; ///< across, along the surface
+	bool repeated;                           ///< one of the predictors was right
+	LatticePoint offset; ///< from the middle of the parents, or of the ring; 1/16
+};
+
+class CompactModels
+{
+public:
+	PositionModels births, bits;
+	std::vector<VertexRecord> records; ///< #V
+	/// Coordinates so far at full precision, by axis; only up to kCountedBits.
+	std::array<std::optional<ValueCounts>, 3> counts;
+	static constexpr int kCountedBits = 16;
+};
+
+} // namespace wavemesh
