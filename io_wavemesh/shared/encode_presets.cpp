@@ -13,12 +13,12 @@ QString presetHelp()
 	return "<b>as set below</b>: the options below count. The others set all of them but the "
 	       "precision:<br>"
 	       "<b>smallest</b>: the fewest bytes for the whole mesh; tries several ways, which takes "
-	       "about five times as long.<br>"
-	       "<b>balanced</b>: coarse levels close to the original, for about 2 % more bytes.<br>"
-	       "<b>best coarse levels</b>: the closest coarse levels at any low rate; some percent "
-	       "larger.<br>"
+	       "five times as long.<br>"
+	       "<b>balanced</b>: coarse levels close to the original, for 3 to 5 % more bytes.<br>"
+	       "<b>best coarse levels</b>: the closest coarse levels at any low rate, for 15 to 30 % "
+	       "more bytes.<br>"
 	       "<b>exact</b>: balanced, and every coordinate bit for bit, not only its place on the "
-	       "lattice: two to three times as large.";
+	       "lattice: three to four times as large.";
 }
 
 EncodeOptions optionsOf(Preset preset, EncodeOptions options)
