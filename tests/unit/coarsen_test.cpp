@@ -69,7 +69,7 @@ whatAStepBreaks(const MeshData& mesh, const GeometricalCriterion& criterion, dou
 	for (int depth = 0;; ++depth) {
 		const std::string where = "step " + std::to_string(depth) + ": ";
 		const Coarsening step   = coarsen(
-		      level.table, level.positions, criterion, {share > 0 ? &quadrics : nullptr, share});
+		      level.table, level.positions, criterion, {}, {share > 0 ? &quadrics : nullptr, share});
 		Topology found;
 		if (std::string s = whatIsNotManifold(meshOf(step.coarse, {}), &found); !s.empty())
 			return where + s;

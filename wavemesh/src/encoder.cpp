@@ -87,8 +87,8 @@ public:
 			const Stage stage = both ? whole.part(wgc ? 0.5 : 0, wgc ? 1 : 0.5) : whole;
 			const GeometricalCriterion criterion {
 			    wgc, options_.wgcSharpness, options_.wgcDeviation};
-			std::optional<Levels> levels = makeLevels(
-			    mesh_, criterion, steeringFor(options_.optimize), stage.part(0, 0.4));
+			std::optional<Levels> levels =
+			    makeLevels(mesh_, criterion, steeringFor(options_.optimize), stage.part(0, 0.4));
 			if (!levels)
 				return cancelled();
 			if (!(classic ? tryClassic(*levels, wgc, stage.part(0.4, 1))
@@ -141,13 +141,12 @@ private:
 
 	std::vector<ScheduleOptions> schedulesFor(const Levels& levels) const
 	{
+		constexpr int kAll = ScheduleOptions::kAll;
+		const bool repeats = repeatsItself(levels.replay.finest, levels.positions);
 		if (options_.effort < 3)
-			return {{8, guessLastBits(levels.replay.finest, levels.positions)}};
-		return {
-		    {8, LastBits::OneByOne},
-		    {8, LastBits::AtOnce},
-		    {4, guessLastBits(levels.replay.finest, levels.positions)},
-		    {12, guessLastBits(levels.replay.finest, levels.positions)}};
+			return {repeats ? ScheduleOptions {8, 2, kAll} : ScheduleOptions {8, 2, 2}};
+		const int last = repeats ? kAll : 2;
+		return {{8, 1, 1}, {8, 1, 2}, {8, 1, kAll}, {4, 1, last}, {12, 1, last}};
 	}
 
 	void keepIfSmaller(const Levels& levels, Head& head, std::vector<std::uint8_t>& chunks)

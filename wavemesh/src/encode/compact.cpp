@@ -78,10 +78,10 @@ bool writeCompact(
 	cells.reserve(truth.size());
 	const auto endLevel = [&](LevelKind kind, std::size_t step) {
 		LevelRow row;
-		row.kind     = kind;
-		row.vertices = std::uint32_t(cells.size());
-		row.faces    = std::uint32_t(levels.table(split).faceCount());
-		row.shift    = shift;
+		row.kind      = kind;
+		row.vertices  = std::uint32_t(cells.size());
+		row.faces     = std::uint32_t(levels.table(split).faceCount());
+		row.shift     = shift;
 		row.errorCode = errorCode(
 		    saturatingAdd(missing[split], squaredErrors(levels, split, shift, cells)),
 		    truth.size());

@@ -5,7 +5,7 @@ namespace wavemesh {
 namespace {
 
 /// A chunk is closed after the level that takes it past this many bytes: small levels share one.
-constexpr std::size_t kChunkSize = 400;
+constexpr std::size_t kChunkSize = 4000;
 
 } // namespace
 

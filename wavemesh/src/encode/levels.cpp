@@ -6,8 +6,7 @@
 
 namespace wavemesh {
 
-std::optional<Levels>
-makeLevels(
+std::optional<Levels> makeLevels(
     const QuantisedMesh& mesh,
     const GeometricalCriterion& criterion,
     const Steering& steering,
@@ -15,8 +14,8 @@ makeLevels(
 {
 	bool running         = true;
 	const auto keepGoing = [&](double fraction) { return running = stage(fraction); };
-	auto coarsenings =
-	    coarsenAll(mesh.cut.table, mesh.positions, criterion, steering, keepGoing, mesh.cut.shared());
+	auto coarsenings     = coarsenAll(
+	        mesh.cut.table, mesh.positions, criterion, steering, keepGoing, mesh.cut.shared());
 	if (!running)
 		return {};
 

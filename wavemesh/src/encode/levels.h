@@ -37,8 +37,7 @@ struct Levels
 };
 
 /// @return nothing if the user cancelled. Linear.
-std::optional<Levels>
-makeLevels(
+std::optional<Levels> makeLevels(
     const QuantisedMesh& mesh,
     const GeometricalCriterion& criterion,
     const Steering& steering,

@@ -36,27 +36,31 @@ Schedule makeSchedule(const Levels& levels, int latticeBits, const ScheduleOptio
 	int shift = std::min(
 	    shiftFor(levels.table(0), levels.positions, options.cellSixteenths), latticeBits - 1);
 	schedule.baseShift = shift;
-	const auto sharpen = [&](int target, bool atOnce) {
+	if (levels.splits() == 0)
+		schedule.baseShift = shift = 0;
+	const auto sharpen = [&](int target) {
 		while (shift > target) {
-			const int bits = atOnce ? shift - target : 1;
+			const int rest = shift - target;
+			const int bits =
+			    target == 0 && rest <= options.lastBits ? rest : std::min(rest, options.bits);
 			schedule.steps.push_back({LevelKind::Precise, bits});
 			shift -= bits;
 		}
 	};
 	for (std::size_t i = 1; i <= levels.splits(); ++i) {
 		schedule.steps.push_back({LevelKind::Split, 0});
-		if (i < levels.splits())
-			sharpen(shiftFor(levels.table(i), levels.positions, options.cellSixteenths), false);
+		const int target =
+		    i == levels.splits()
+		        ? 0
+		        : shiftFor(levels.table(i), levels.positions, options.cellSixteenths);
+		sharpen(target);
 	}
-	sharpen(0, options.last == LastBits::AtOnce);
 	return schedule;
 }
 
-LastBits guessLastBits(const CornerTable& table, const std::vector<LatticePoint>& positions)
+bool repeatsItself(const CornerTable& table, const std::vector<LatticePoint>& positions)
 {
-	// Parallelograms that close to the lattice point, in two coordinates at least: chance is less
-	// often right than structure.
-	std::uint64_t exact = 0, count = 0;
+	std::uint64_t closed = 0, count = 0;
 	for (Index c = 0; c < table.cornerCount(); ++c) {
 		const Index d = table.opposite[c];
 		if (d == kNone || d < c)
@@ -64,13 +68,13 @@ LastBits guessLastBits(const CornerTable& table, const std::vector<LatticePoint>
 		const LatticePoint &a = positions[table.vertex[nextCorner(c)]],
 		                   &b = positions[table.vertex[prevCorner(c)]],
 		                   &p = positions[table.vertex[c]], &q = positions[table.vertex[d]];
-		int hits = 0;
+		bool closes = true;
 		for (std::size_t k = 0; k < 3; ++k)
-			hits += std::abs((a[k] - p[k]) + (b[k] - q[k])) <= 1;
-		exact += hits >= 2;
+			closes = closes && std::abs((a[k] - p[k]) + (b[k] - q[k])) <= 1;
+		closed += closes;
 		++count;
 	}
-	return 12 * exact > count ? LastBits::AtOnce : LastBits::OneByOne;
+	return 4 * closed > count;
 }
 
 } // namespace wavemesh

@@ -8,18 +8,20 @@
 
 namespace wavemesh {
 
-/// How the last bits are coded, once connectivity is whole.
-enum class LastBits : std::uint8_t {
-	OneByOne, ///< bit after bit for all vertices: good where surfaces are smooth
-	AtOnce,   ///< vertex after vertex: good where coordinates repeat, as on CAD and scan lattices
-};
-
 struct ScheduleOptions
 {
+	static constexpr int kAll = 24;
+
 	/// Width of a cell over the mean length of the level's edges, in sixteenths; 0: full precision
 	/// from the start.
 	int cellSixteenths = 8;
-	LastBits last      = LastBits::OneByOne;
+	/// Bits that a refinement adds to all vertices: 1 is the smallest where surfaces are smooth, 2
+	/// is faster.
+	int bits = 1;
+	/// The same for the last refinement of all. kAll: whatever is missing once connectivity is
+	/// whole, vertex after vertex; the smallest where coordinates repeat, as on CAD and scan
+	/// lattices.
+	int lastBits = 1;
 };
 
 /// A refinement: a split, or `bits` more bits of every coordinate.
@@ -37,7 +39,8 @@ struct Schedule
 
 Schedule makeSchedule(const Levels& levels, int latticeBits, const ScheduleOptions& options);
 
-/// Guesses from the mesh which way to code the last bits is the smaller.
-LastBits guessLastBits(const CornerTable& table, const std::vector<LatticePoint>& positions);
+/// Do the mesh's coordinates repeat, so that ScheduleOptions::kAll gives the smaller file? A guess
+/// from how often neighbouring faces close to parallelograms.
+bool repeatsItself(const CornerTable& table, const std::vector<LatticePoint>& positions);
 
 } // namespace wavemesh

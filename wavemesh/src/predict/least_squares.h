@@ -44,18 +44,18 @@ public:
 		}
 	}
 
-	/// Forgets a little, and every second time takes the weights one sweep of Gauss-Seidel closer
+	/// Every second time: forgets a little, and takes the weights one sweep of Gauss-Seidel closer
 	/// to the solution. |gram| stays below 2^40, so all sums below 2^60.
 	void endOfVertex()
 	{
-		for (std::size_t i = 0; i < N; ++i) {
-			for (std::size_t k = i; k < N; ++k)
-				gram_[i][k] -= gram_[i][k] >> 8;
-			moment_[i] -= moment_[i] >> 8;
-		}
 		odd_ = !odd_;
 		if (odd_)
 			return;
+		for (std::size_t i = 0; i < N; ++i) {
+			for (std::size_t k = i; k < N; ++k)
+				gram_[i][k] -= gram_[i][k] >> 7;
+			moment_[i] -= moment_[i] >> 7;
+		}
 		for (std::size_t i = 0; i < N; ++i) {
 			std::int64_t rest = moment_[i] * 16384;
 			for (std::size_t k = 0; k < i; ++k)
