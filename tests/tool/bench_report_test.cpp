@@ -42,7 +42,8 @@ TEST_F(WmcTest, ReportWritesTheSameNumbersAsCsv)
 	std::string line;
 	ASSERT_TRUE(std::getline(lines, line));
 	EXPECT_EQ(
-	    line, "configuration,level,kind,vertices,faces,bytes,prefix,bits_per_vertex,rms,max,error");
+	    line, "configuration,level,kind,vertices,faces,bytes,prefix,bits_per_vertex,rms,max,error,"
+	          "connectivity_bytes,geometry_bytes,rms_units,max_units");
 	std::size_t rows  = 0;
 	const auto levels = r.json()["levels"];
 	for (; std::getline(lines, line); ++rows) {
