@@ -36,7 +36,7 @@ Steering steeringFor(Optimize optimize)
 {
 	switch (optimize) {
 	case Optimize::Balanced:
-		return {1, 0.9, 0.75};
+		return {2, 0.9, 0.75};
 	case Optimize::Levels:
 		return {0, 0.9, 0.6};
 	case Optimize::Size:
@@ -146,6 +146,9 @@ private:
 	std::vector<ScheduleOptions> schedulesFor(const Levels& levels) const
 	{
 		constexpr int kAll = ScheduleOptions::kAll;
+		// Coarse levels of high precision, and a short way from each to the next.
+		if (options_.optimize == Optimize::Levels)
+			return {{1, 1, 1}};
 		const bool repeats = repeatsItself(levels.replay.finest, levels.positions);
 		if (options_.effort < 3)
 			return {repeats ? ScheduleOptions {8, 2, kAll} : ScheduleOptions {8, 2, 2}};

@@ -38,9 +38,10 @@ enum class Wgc : std::uint8_t {
 /// three: README.
 enum class Optimize : std::uint8_t {
 	Size     = 0, ///< the smallest file: connectivity decides, with wgc as the paper has it
-	Balanced = 1, ///< coarse levels close to the original, for about 2 % more bytes: the finest
-	              ///< step as with Size, the others remove what makes the smallest errors
-	Levels = 2,   ///< the smallest error at any low rate: all steps so; wgc does not matter
+	Balanced = 1, ///< coarse levels closer to the original, for about 2 % more bytes: the two finest
+	              ///< steps as with Size, the others remove what makes the smallest errors
+	Levels = 2,   ///< the smallest error at any low rate: all steps so, and positions are precise
+	              ///< early; wgc does not matter
 };
 
 /// Lifting is off: the lazy filter bank, configuration I of the paper.
