@@ -11,6 +11,11 @@ void addPromiseParameters(RichParameterList& list)
 	    "exact", false, "Exact coordinates",
 	    "Keep every coordinate bit for bit, not only its place on the lattice; larger by what the "
 	    "lattice leaves out."));
+	list.addParam(RichBool(
+	    "keep_order", false, "Keep the order",
+	    "Keep the order of vertices and faces; larger by about the logarithm of their number for "
+	    "each.",
+	    true));
 }
 
 void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults, bool hidePrecision)
@@ -84,6 +89,7 @@ EncodeOptions encodeOptions(const RichParameterList& list, const EncodeOptions& 
 	options.lifting =
 	    kLiftingOff + choiceOf(list, "lifting", defaults.lifting - kLiftingOff, 2 - kLiftingOff);
 	options.exact        = flagOf(list, "exact", defaults.exact);
+	options.keepOrder    = flagOf(list, "keep_order", defaults.keepOrder);
 	options.wgcSharpness = numberOf(list, "wgc_sharpness", defaults.wgcSharpness);
 	options.wgcDeviation = numberOf(list, "wgc_deviation", defaults.wgcDeviation);
 	return options;

@@ -14,7 +14,7 @@ namespace wavemesh {
 void addEncodeParameters(
     RichParameterList& list, const EncodeOptions& defaults, bool hidePrecision = false);
 
-/// Appends what a file may promise besides its lattice: exact coordinates.
+/// Appends what a file may promise besides its lattice: exact coordinates, the order.
 void addPromiseParameters(RichParameterList& list);
 
 /// Reads them back, the promises too; what a script leaves out keeps the value of `defaults`.

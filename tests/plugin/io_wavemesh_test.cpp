@@ -215,6 +215,23 @@ TEST(IoWavemesh, ExactCoordinatesComeBackBitForBit)
 	EXPECT_TRUE(coordinates(*host.open(scratch("exact.wmc")).front()) == coordinates(from));
 }
 
+TEST(IoWavemesh, TheOrderOfVerticesAndFacesComesBackIfAsked)
+{
+	MeshLabHost& host     = freshHost();
+	const MeshModel& from = *host.open(sample("island.ply")).front();
+	host.save(scratch("order.wmc"), {{"exact", "true"}, {"keep_order", "true"}});
+	const MeshModel& back = *host.open(scratch("order.wmc")).front();
+	ASSERT_EQ(back.cm.vn, from.cm.vn);
+	ASSERT_EQ(back.cm.fn, from.cm.fn);
+	for (std::size_t v = 0; v < from.cm.vert.size(); ++v)
+		ASSERT_EQ(back.cm.vert[v].cP(), from.cm.vert[v].cP()) << v;
+	for (std::size_t f = 0; f < from.cm.face.size(); ++f)
+		for (int k = 0; k < 3; ++k)
+			ASSERT_EQ(
+			    vcg::tri::Index(back.cm, back.cm.face[f].cV(k)),
+			    vcg::tri::Index(from.cm, from.cm.face[f].cV(k)));
+}
+
 TEST(IoWavemesh, AProjectComesBackWithEveryLevelAsALayer)
 {
 	const SavedSample saved;
