@@ -71,6 +71,8 @@ std::vector<SmallFile> smallFiles()
 		MeshData mesh;
 		int bits, lifting;
 		Wgc wgc;
+		Mode mode  = Mode::Classic;
+		int effort = 2;
 	};
 	const Recipe recipes[] = {
 	    {"triangle", makeTriangle(), 8, kLiftingOff, Wgc::Off},
@@ -81,7 +83,15 @@ std::vector<SmallFile> smallFiles()
 	     joined({makeTorus(5, 4), moved(makeStrip(5), 3, 0, 0), moved(makeTetrahedron(), 0, 4, 0)}),
 	     7, kLiftingOff, Wgc::Auto},
 	    {"kleetope", makeKleetope(makeIcosahedron()), 5, 2, Wgc::Off},
-	    {"several_chunks", makeFlippedSphere(110, 15), 12, kLiftingOff, Wgc::Off},
+	    {"several_chunks", makeFlippedSphere(200, 15), 20, kLiftingOff, Wgc::Off},
+	    {"compact_triangle", makeTriangle(), 8, 0, Wgc::Off, Mode::Compact},
+	    {"compact_smooth", makeBumpySphere(40, 1), 12, 0, Wgc::Off, Mode::Compact},
+	    {"compact_open", joined({makeTerrain(30, 1), moved(makeStrip(5), 3, 0, 0)}), 10, 0,
+	     Wgc::Off, Mode::Compact, 3},
+	    {"compact_repeats", punch(makeFlatGrid(6, 6), 3, 1), 14, 0, Wgc::Off, Mode::Compact},
+	    {"compact_repeats_effort_3", joined({makeFlatGrid(5, 5), makeCube()}), 16, 0, Wgc::Auto,
+	     Mode::Compact, 3},
+	    {"compact_24_bits", makeFlippedSphere(30, 5), 24, 0, Wgc::Off, Mode::Compact},
 	};
 	std::vector<SmallFile> files;
 	for (const Recipe& r : recipes) {
@@ -89,6 +99,8 @@ std::vector<SmallFile> smallFiles()
 		o.bits    = r.bits;
 		o.lifting = r.lifting;
 		o.wgc     = r.wgc;
+		o.mode    = r.mode;
+		o.effort  = r.effort;
 		auto file = encode(r.mesh, o);
 		if (!file.ok())
 			throw std::runtime_error(file.status().what);
