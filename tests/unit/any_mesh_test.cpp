@@ -333,6 +333,31 @@ TEST(AnyMesh, CopiesOfAVertexStayTogetherInEveryLevel)
 	}
 }
 
+TEST(AnyMesh, CopiesOfAVertexStayTogetherInEveryCompactLevel)
+{
+	const MeshData mesh = makeBook(4, 40, 12);
+	EncodeOptions o;
+	o.wgc     = Wgc::Off;
+	o.mode    = Mode::Classic;
+	o.lifting = kLiftingOff;
+	// The base of both modes is numbered alike; classic tells which of its vertices are copies.
+	const auto classic = levelsOf(encode(mesh, o)->bytes);
+	o.mode             = Mode::Compact;
+	const auto levels  = levelsOf(encode(mesh, o)->bytes);
+	ASSERT_GE(levels.size(), 4u);
+	const auto& base = classic[0].mesh.positions;
+	std::map<std::array<double, 3>, std::size_t> firstAt;
+	std::size_t copies = 0;
+	for (std::size_t v = 0; v < base.size(); ++v) {
+		const std::size_t first = firstAt.emplace(base[v], v).first->second;
+		copies += first != v;
+		// The finest level is the original again, in another numbering.
+		for (std::size_t j = 0; j + 1 < levels.size(); ++j)
+			ASSERT_EQ(levels[j].mesh.positions[v], levels[j].mesh.positions[first]) << j;
+	}
+	EXPECT_EQ(copies, 3 * 41u);
+}
+
 TEST(AnyMesh, AnyDamageToAnyFamilyComesBack)
 {
 	std::uint64_t seed = 1;

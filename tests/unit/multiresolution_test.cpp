@@ -41,6 +41,8 @@ TEST(Multiresolution, HasTheLevelsThatTheEncoderMakes)
 		for (const Wgc wgc : {Wgc::Off, Wgc::On}) {
 			SCOPED_TRACE(m.name);
 			EncodeOptions options;
+			options.mode       = Mode::Classic; // a level for each split
+			options.optimize   = Optimize::Size;
 			options.bits       = 20;
 			options.wgc        = wgc;
 			options.mode       = Mode::Classic;

@@ -392,7 +392,7 @@ StreamInfo describe(const Head& head, std::size_t headEnd)
 			level.faces             = row.faces;
 			level.prefix            = k == i ? begin + chunkSize(payload) : end;
 			level.bytes             = level.prefix - previous;
-			level.bits              = head.lattice.bits;
+			level.bits              = head.lattice.bits - row.shift;
 			level.error             = head.lattice.step * errorFromCode(row.errorCode);
 			level.connectivityBytes = row.connectivityBytes;
 			level.geometryBytes     = row.bytes - row.connectivityBytes;

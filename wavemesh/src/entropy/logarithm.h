@@ -37,7 +37,7 @@ inline int log2Eighths(std::uint64_t x)
 	return log2Fixed(x) >> 9;
 }
 
-/// 2^(eighths / 8) in 1/4096. @pre -80 <= eighths <= 80
+/// 2^(eighths / 8) in 1/4096. @pre -80 <= eighths <= 63
 inline std::int32_t exp2Eighths(int eighths)
 {
 	const std::int32_t mantissa = kLogarithm.exp2[static_cast<std::size_t>(eighths & 7)];
