@@ -53,6 +53,26 @@ private:
 	{
 		std::uint32_t bin, part;
 	};
+	/// How magnitudes with the same leading digit are shifted for a bin to have 2^kParts parts, and
+	/// the bin from which the shifted ones count.
+	struct Octave
+	{
+		std::uint8_t shift, first;
+	};
+	struct Octaves
+	{
+		std::array<Octave, kOctaves + 7> of;
+		constexpr Octaves() : of()
+		{
+			of[6] = {kParts - 3, 0}; // the even bins
+			for (std::size_t digit = 7; digit < of.size(); ++digit)
+				// The first of the octave's four is 4 after shifting.
+				of[digit] = {
+				    static_cast<std::uint8_t>(kParts + 2 - digit),
+				    static_cast<std::uint8_t>(kLinear + 4 * (digit - 7) - 4)};
+		}
+	};
+	static const Octaves kOctave;
 	static Place locate(std::int64_t magnitude);
 	void rebuild();
 
@@ -68,18 +88,14 @@ private:
 
 namespace wavemesh {
 
+inline constexpr ResidualShape::Octaves ResidualShape::kOctave {};
+
 inline ResidualShape::Place ResidualShape::locate(std::int64_t magnitude)
 {
-	const auto x = static_cast<std::uint32_t>(std::min(magnitude, kBeyond - 1));
-	// Shifted so that a bin has 2^kParts parts: the even bins below 128 all alike, the others by
-	// their octave; an octave starts at its fourth quarter-width.
-	const int digit             = leadingDigit(x | 64);
-	const bool linear           = digit == 6;
-	const std::uint32_t shifted = x << (linear ? kParts - 3 : kParts + 2 - digit);
-	const int first             = linear ? 0 : static_cast<int>(kLinear) + 4 * (digit - 7) - 4;
-	return {
-	    static_cast<std::uint32_t>(first) + (shifted >> kParts),
-	    shifted & ((std::uint32_t(1) << kParts) - 1)};
+	const auto x                = static_cast<std::uint32_t>(std::min(magnitude, kBeyond - 1));
+	const Octave octave         = kOctave.of[static_cast<std::size_t>(leadingDigit(x | 64))];
+	const std::uint32_t shifted = x << octave.shift;
+	return {octave.first + (shifted >> kParts), shifted & ((std::uint32_t(1) << kParts) - 1)};
 }
 
 } // namespace wavemesh

@@ -165,8 +165,8 @@ private:
 		std::int32_t height; ///< normalised
 		std::size_t leastSquaresClass;
 
-		std::array<std::array<int, 3>, kPredictors> scale;
-		int across, along; ///< expected errors, log2 in eighths
+		std::array<int, kAxisErrors> scale; ///< by 3 * predictor + axis
+		int across, along;                  ///< expected errors, log2 in eighths
 	};
 
 	void begin(PositionModels& models, int shift, int bits, std::vector<LatticePoint>& cells)
@@ -189,15 +189,26 @@ private:
 	Vector at(Index v) const { return {likely_[v][0], likely_[v][1], likely_[v][2]}; }
 	Vector fromOrigin(const View& view, Index v) const { return at(v) - view.origin; }
 
+	/// 65536 / n for numbers of neighbours.
+	struct Inverses
+	{
+		std::array<std::int32_t, kMostNeighbours + 2> of;
+		constexpr Inverses() : of()
+		{
+			for (std::size_t n = 1; n < of.size(); ++n)
+				of[n] = static_cast<std::int32_t>(65536 / n);
+		}
+	};
+	static constexpr Inverses kInverses {};
+
 	/// x / n, rounded; 0 for n = 0. |x| < 2^40
 	static Vector mean(const Vector& sum, std::size_t n)
 	{
 		Vector out {0, 0, 0};
 		if (n == 0)
 			return out;
-		const std::int64_t inverse = 65536 / static_cast<std::int64_t>(n);
 		for (std::size_t k = 0; k < 3; ++k)
-			out[k] = (sum[k] * inverse + 32768) >> 16;
+			out[k] = (sum[k] * kInverses.of[n] + 32768) >> 16;
 		return out;
 	}
 	static std::uint64_t magnitude(std::int64_t x)
@@ -391,15 +402,11 @@ private:
 
 	Vector middleOfParents(const std::array<Index, 3>& parents) const
 	{
-		Vector sum    = at(parents[0]) + at(parents[1]);
-		std::size_t n = 2;
-		if (parents[2] != kNone) {
-			sum += at(parents[2]);
-			n = 3;
-		}
-		for (std::int64_t& x : sum)
-			x /= static_cast<std::int64_t>(n);
-		return sum;
+		Vector sum = at(parents[0]) + at(parents[1]);
+		if (parents[2] == kNone)
+			return {sum[0] / 2, sum[1] / 2, sum[2] / 2};
+		sum += at(parents[2]);
+		return {sum[0] / 3, sum[1] / 3, sum[2] / 3};
 	}
 
 	/// The edge of a child in the parent level: the vertices across, those beyond, how it bends.
@@ -496,21 +503,21 @@ private:
 	void expectErrors(View& view) const
 	{
 		std::array<std::uint16_t, kErrors> around {}; // 24 neighbours at most: below 2^13
-		std::int32_t count = 4;
+		std::size_t count = 1;
 		for (std::size_t j = 0; j < view.size; ++j) {
 			const Index u = view.ring[j];
 			if (u >= firstNew_ && known(u)) {
 				addErrors(all_.records[u], around);
-				count += 4;
+				++count;
 			}
 		}
 		const std::int32_t length  = log2Eighths(static_cast<std::uint64_t>(view.length));
-		const std::int32_t inverse = 65536 / count;
+		const std::int32_t inverse = kInverses.of[count] / 4;
 		std::array<std::int32_t, kErrors> mean; // times 2^16
 		for (std::size_t i = 0; i < kErrors; ++i)
 			mean[i] = 4 * (std::max(0, length + m_->ratio[i] / 16) + around[i]) * inverse;
 		for (std::size_t i = 0; i < kAxisErrors; ++i)
-			view.scale[i / 3][i % 3] = std::min(mean[i] >> 17, kScaleClasses - 1);
+			view.scale[i] = std::min(mean[i] >> 17, kScaleClasses - 1);
 		view.across = mean[kErrorAcross] >> 16;
 		view.along  = mean[kErrorAlong] >> 16;
 		if (view.normal == UnitVector {0, 0, 0})
@@ -556,11 +563,11 @@ private:
 		if (product != 0)
 			shift = std::clamp(
 			    ((state.g * view.normal[axis]) >> 14) * product / state.before, -most, most);
-		view.predicted[which][axis] = view.offset[axis] + unscaled(view, shift);
-		const int deviation         = view.along + ((logAfter - state.logBefore) >> 1);
-		view.scale[which][axis]     = std::clamp(deviation >> 1, 0, kScaleClasses - 1);
-		state.before                = after;
-		state.logBefore             = logAfter;
+		view.predicted[which][axis]  = view.offset[axis] + unscaled(view, shift);
+		const int deviation          = view.along + ((logAfter - state.logBefore) >> 1);
+		view.scale[3 * which + axis] = std::clamp(deviation >> 1, 0, kScaleClasses - 1);
+		state.before                 = after;
+		state.logBefore              = logAfter;
 	}
 
 	/// To the middle of a cell, in 1/16, from the lattice's origin.
@@ -581,7 +588,7 @@ private:
 			predictOnSurface(view, kSurfaceNarrow, axis, narrow, squares, product);
 			predictOnSurface(view, kSurface, axis, wide, squares, product);
 			for (std::size_t i = 0; i < kPredictors; ++i) {
-				const int scale         = view.scale[i][axis];
+				const int scale         = view.scale[3 * i + axis];
 				const std::size_t large = scale < 16 ? 0 : scale < 32 ? 1 : 2;
 				value.setOpinion(
 				    i, view.origin[axis] + view.predicted[i][axis], scale, m_->shapes[i][large]);
@@ -603,7 +610,7 @@ private:
 			context.a            = contextOfRepeats(view);
 			if (bits_ == 1)
 				context.a = static_cast<std::size_t>(
-				    std::clamp((view.scale[kSurface][axis] - 12) / 4, 0, 7));
+				    std::clamp((view.scale[3 * kSurface + axis] - 12) / 4, 0, 7));
 			context.b =
 			    axis * 4 + (axis == 0 ? std::min<std::size_t>(view.parallelograms, 3) : sure);
 			context.c  = axis * 4 + (view.normal == UnitVector {0, 0, 0} ? 0
@@ -699,7 +706,7 @@ private:
 			const std::int64_t end   = std::int64_t(1) << (fullBits_ - shift_);
 			const std::int64_t guide = std::clamp<std::int64_t>(
 			    (view.origin[axis] + view.offset[axis] + 8) >> 4, 0, end - 1);
-			const int spread = std::max(0, (view.scale[kSurface][axis] - 20) / 4);
+			const int spread = std::max(0, (view.scale[3 * kSurface + axis] - 20) / 4);
 			return static_cast<std::int32_t>(m_->value.template codeAround<Opinions>(
 			    coder_, wanted, 0, end, guide, spread, context, counts));
 		}
@@ -712,7 +719,8 @@ private:
 
 	static std::uint8_t logError(std::int64_t e)
 	{
-		return static_cast<std::uint8_t>(std::min(log2Eighths(magnitude(e) + 8), 255));
+		const std::uint64_t x = std::min<std::uint64_t>(magnitude(e) + 8, 0xffffffff);
+		return static_cast<std::uint8_t>(log2OfWord(static_cast<std::uint32_t>(x)) >> 9);
 	}
 
 	void remember(Index v, const View& view, const LatticePoint& cell)
