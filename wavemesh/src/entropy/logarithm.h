@@ -26,9 +26,9 @@ inline std::int32_t log2Fixed(std::uint64_t x)
 /// The same; without the branch, for what is asked most. @pre x > 0
 inline std::int32_t log2OfWord(std::uint32_t x)
 {
-	const int length             = bitLength(x);
-	const std::uint32_t mantissa = (x << (32 - length)) >> 21;
-	return 4096 * (length - 1) + kLogarithm.log2[mantissa & 1023];
+	const int digit     = leadingDigit(x);
+	const auto mantissa = static_cast<std::size_t>((std::uint64_t(x) << 10) >> digit) & 1023;
+	return 4096 * digit + kLogarithm.log2[mantissa];
 }
 
 /// log2(x) in eighths, rounded down. @pre x > 0

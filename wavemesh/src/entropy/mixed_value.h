@@ -11,6 +11,7 @@
 
 #include "entropy/logarithm.h"
 #include "entropy/logistic.h"
+#include "entropy/mix_weights.h"
 #include "entropy/residual_shape.h"
 
 #include <algorithm>
@@ -46,23 +47,10 @@ struct MixContext
 	std::size_t a = 0, b = 0, c = 0; ///< below MixedValue::kContexts
 };
 
-/// Rates of learning by the number of bits seen: a table saves three divisions a question.
-struct MixRates
-{
-	static constexpr std::size_t kSlowest = 1024; ///< bits, from where on the rate is constant
-	std::array<std::uint8_t, kSlowest + 1> of;
-	constexpr MixRates() : of()
-	{
-		for (std::size_t seen = 0; seen < of.size(); ++seen)
-			of[seen] = static_cast<std::uint8_t>(20 + 3000 / (seen + 48));
-	}
-};
-inline constexpr MixRates kMixRates {};
-
 class MixedValue
 {
 public:
-	static constexpr std::size_t kMaxOpinions = 15;
+	static constexpr std::size_t kMaxOpinions = kMostInputs - 1;
 	static constexpr std::size_t kFewOpinions = 8;
 	static constexpr std::size_t kContexts    = 12;
 
@@ -150,14 +138,6 @@ private:
 		std::int64_t low, high;
 	};
 
-	/// Weights in 1/65536, and how many bits they saw. A weight is high * 256 + low: products of 16
-	/// bits are what every processor has in its vector unit.
-	struct Weights
-	{
-		std::array<std::int16_t, kMaxOpinions + 1> high, low;
-		std::int32_t seen = 0;
-	};
-
 	std::int64_t normalised(std::size_t i, std::int64_t sixteenths) const
 	{
 		return ((sixteenths - centre_[i]) * inverse_[i]) >> 20;
@@ -238,12 +218,12 @@ private:
 	template <std::size_t Inputs, class Coder>
 	bool mix(Coder& coder, bool value, std::size_t node, const MixContext& context)
 	{
-		Weights* const sets[3] = {
+		MixWeights* const sets[3] = {
 		    &sets_[0][node * kContexts + context.a], &sets_[1][node * kContexts + context.b],
 		    &sets_[2][node * kContexts + context.c]};
 		std::int32_t said[3], sum = 0;
 		for (std::size_t s = 0; s < 3; ++s) {
-			said[s] = dot<Inputs>(*sets[s]);
+			said[s] = weightedSum<Inputs>(input_, *sets[s]);
 			sum += said[s];
 		}
 		const std::int32_t mean = sum / 3;
@@ -259,45 +239,12 @@ private:
 		value = coder.bit(value, p);
 
 		for (std::size_t s = 0; s < 3; ++s)
-			adapt<Inputs>(*sets[s], squash(said[s]), value);
+			followBit<Inputs>(
+			    input_, (value ? 65535 : 0) - static_cast<std::int32_t>(squash(said[s])), *sets[s]);
 		std::int32_t& r = refined_[part < 2048 ? slot : slot + 1];
 		r += ((value ? (1 << 22) - 1 : 0) - r) / 64;
 		return value;
 	}
-
-	/// The inputs by their weights, in 1/256.
-	template <std::size_t Inputs>
-	std::int32_t dot(const Weights& w) const
-	{
-		std::int32_t high = 0, low = 0; // below 2^26
-		for (std::size_t i = 0; i < Inputs; ++i)
-			high += input_[i] * w.high[i];
-		for (std::size_t i = 0; i < Inputs; ++i)
-			low += input_[i] * w.low[i];
-		return std::clamp((high + (low >> 8)) >> 8, -kStretchMax, kStretchMax);
-	}
-
-	/// Weights follow input * error / 2^20, rounded. The error has 24 bits; in two parts, of 12
-	/// each, the products stay below 2^23.
-	template <std::size_t Inputs>
-	void adapt(Weights& w, Probability p, bool value) const
-	{
-		const std::int32_t error = ((value ? 65535 : 0) - static_cast<std::int32_t>(p)) *
-		                           kMixRates.of[static_cast<std::size_t>(w.seen)];
-		if (w.seen < static_cast<std::int32_t>(MixRates::kSlowest))
-			++w.seen;
-		const auto errorHigh = static_cast<std::int16_t>(error >> 12);
-		const auto errorLow  = static_cast<std::int16_t>(error & 4095);
-		for (std::size_t i = 0; i < Inputs; ++i) {
-			const std::int32_t step =
-			    (input_[i] * errorHigh + ((input_[i] * errorLow + (1 << 19)) >> 12)) >> 8;
-			const std::int32_t weight =
-			    std::clamp(w.high[i] * 256 + w.low[i] + step, -kLargestWeight, kLargestWeight);
-			w.high[i] = static_cast<std::int16_t>(weight >> 8);
-			w.low[i]  = static_cast<std::int16_t>(weight & 255);
-		}
-	}
-	static constexpr std::int32_t kLargestWeight = 8 * 65536 - 1;
 
 	template <std::size_t N>
 	std::int64_t learn(std::int64_t x)
@@ -314,20 +261,17 @@ private:
 
 	std::array<std::int32_t, kMaxOpinions> low_, high_; ///< mass below the ends of the range
 	std::uint32_t countLow_ = 0, countHigh_ = 0;        ///< the same of the counts
-	std::array<std::int16_t, kMaxOpinions + 1>
-	    input_;                                ///< odds in 1/256; the last ones from the counts
-	std::array<std::vector<Weights>, 3> sets_; ///< by kind of question and context
-	std::vector<std::int32_t> refined_;        ///< by kind and odds, probability in 22 bits
+	MixInputs input_;                                   ///< the last ones from the counts
+	std::array<std::vector<MixWeights>, 3> sets_;       ///< by kind of question and context
+	std::vector<std::int32_t> refined_; ///< by kind and odds, probability in 22 bits
 };
 
 inline MixedValue::MixedValue()
 {
-	constexpr std::int16_t first = 65536 * 3 / 2 / (kMaxOpinions + 1) / 256;
-	Weights weights;
-	weights.high.fill(first);
-	weights.low.fill(0);
+	MixWeights first;
+	first.of.fill(65536 * 3 / 2 / kMostInputs);
 	for (auto& sets : sets_)
-		sets.assign(kNodes * kContexts, weights);
+		sets.assign(kNodes * kContexts, first);
 	refined_.resize(kNodes * kSlots);
 	for (std::size_t i = 0; i < refined_.size(); ++i)
 		refined_[i] = static_cast<std::int32_t>(squash(int(i % kSlots) * 128 - 2048) << 6);
