@@ -57,7 +57,32 @@ Bytes fileOf(const MeshData& mesh, int bits, int lifting, Wgc wgc, double step =
 	o.wgc     = wgc;
 	o.step    = step;
 	o.effort  = effort;
+	o.mode    = Mode::Classic;
 	return encode(mesh, o).value().bytes;
+}
+
+EncodedMesh compactFileOf(const MeshData& mesh, int bits, int effort = 2)
+{
+	EncodeOptions o;
+	o.mode   = Mode::Compact;
+	o.bits   = bits;
+	o.effort = effort;
+	return encode(mesh, o).value();
+}
+
+/// A sphere one of whose vertices belongs to another sphere too, and an edge with three faces.
+MeshData notManifold()
+{
+	MeshData m      = joined({makeIcosphere(3), moved(makeIcosphere(2), 2, 0, 0)});
+	const Index own = m.triangles.front()[0], other = m.triangles.back()[0];
+	for (auto& t : m.triangles)
+		for (auto& v : t)
+			if (v == other)
+				v = own;
+	const auto edge = m.triangles[5];
+	m.positions.push_back({0.5, 1.5, 2});
+	m.triangles.push_back({edge[1], edge[0], Index(m.positions.size() - 1)});
+	return m;
 }
 
 std::vector<Golden> goodOnes()
@@ -83,6 +108,21 @@ std::vector<Golden> goodOnes()
 	    fileOf(
 	        joined({makeTorus(6, 5), moved(makeGrid(5, 5), 3, 0, 0), moved(makeFan(7), 0, 4, 0)}),
 	        24, kLiftingOff, Wgc::Off));
+	add("compact_smooth", compactFileOf(makeBumpySphere(160, 1), 12).bytes);
+	add("compact_repeats", compactFileOf(punch(makeFlatGrid(12, 12), 9, 1), 12).bytes);
+	add("compact_effort_3", compactFileOf(makeBumpySphere(160, 1), 12, 3).bytes);
+	add("compact_repeats_effort_3",
+	    compactFileOf(joined({makeFlatGrid(9, 9), makeCube()}), 14, 3).bytes);
+	add("compact_boundary", compactFileOf(makeTerrain(150, 2), 16).bytes);
+	add("compact_components",
+	    compactFileOf(
+	        joined({makeTorus(6, 5), moved(makeGrid(5, 5), 3, 0, 0), moved(makeFan(7), 0, 4, 0)}),
+	        12)
+	        .bytes);
+	add("compact_1_bit", compactFileOf(makeFlippedSphere(60, 3), 1).bytes);
+	add("compact_24_bits", compactFileOf(makeFlippedSphere(150, 3), 24).bytes);
+	add("compact_centres", compactFileOf(makeKleetope(makeIcosphere(2)), 10).bytes);
+	add("compact_not_manifold", compactFileOf(notManifold(), 12).bytes);
 	add("far_away_wide_head", fileOf(moved(makeIcosphere(2), 1e7 + 0.1, 0.3, -5), 12, 0, Wgc::Off));
 	return all;
 }
@@ -105,20 +145,51 @@ Bytes cutAt(const Bytes& file, std::size_t size)
 	return {file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size)};
 }
 
+/// @param add  callable (name, bytes, status)
+template <class Add>
+void badCompactOnes(const Add& add)
+{
+	const EncodedMesh file = compactFileOf(makeBumpySphere(160, 1), 12);
+	const auto& levels     = file.info.levels;
+	std::size_t precise    = levels.size() - 1;
+	while (levels[precise].kind != LevelKind::Precise)
+		--precise;
+	add("compact_cut_in_a_precise_level",
+	    cutAt(file.bytes, std::size_t(levels[precise].prefix - levels[precise].geometryBytes / 2)),
+	    StatusCode::Truncated);
+	add("compact_base_without_bits",
+	    withHead(file.bytes, [](Head& h) { h.lattice.bits = h.rows[0].shift; }),
+	    StatusCode::Corrupt);
+	Bytes classic   = file.bytes;
+	const auto head = chunksOf(classic).front();
+	classic[head.payload + 2] &= 0xf8; // the mode: no row can be precise
+	mendChecksum(classic, head);
+	add("compact_called_classic", classic, StatusCode::Corrupt);
+	add("compact_one_bit_more",
+	    withHead(
+	        file.bytes,
+	        [&](Head& h) {
+		        for (std::size_t i = 0; i < precise; ++i)
+			        ++h.rows[i].shift;
+	        }),
+	    StatusCode::Corrupt);
+	add("compact_with_lifting", withHead(file.bytes, [](Head& h) { h.lifting = 1; }),
+	    StatusCode::Corrupt);
+}
+
 std::vector<Golden> badOnes()
 {
 	std::vector<Golden> all;
 	const auto add = [&](const char* name, const Bytes& bytes, StatusCode code) {
 		all.push_back({std::string("bad_") + name + ".wmc", bytes, static_cast<int>(code)});
 	};
-	const EncodedMesh whole = encode(makeFlippedSphere(110, 15)).value();
-	const Bytes& file       = whole.bytes;
-	const auto chunks       = chunksOf(file);
-	const auto mended       = [&](std::size_t chunk, std::size_t at, std::uint8_t value) {
-        Bytes changed                       = file;
-        changed[chunks[chunk].payload + at] = value;
-        mendChecksum(changed, chunks[chunk]);
-        return changed;
+	const Bytes file  = fileOf(makeFlippedSphere(110, 15), 12, 0, Wgc::Off);
+	const auto chunks = chunksOf(file);
+	const auto mended = [&](std::size_t chunk, std::size_t at, std::uint8_t value) {
+		Bytes changed                       = file;
+		changed[chunks[chunk].payload + at] = value;
+		mendChecksum(changed, chunks[chunk]);
+		return changed;
 	};
 	const std::string ply = "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n";
 	add("empty", {}, StatusCode::NotWmc);
@@ -151,6 +222,7 @@ std::vector<Golden> badOnes()
 	    StatusCode::Corrupt);
 	add("one_face_more", withHead(file, [](Head& h) { ++h.rows.back().faces; }),
 	    StatusCode::Corrupt);
+	badCompactOnes(add);
 	add("base_too_large",
 	    withHead(file, [](Head& h) { h.rows[0].vertices = 3 * h.rows[0].faces + 1; }),
 	    StatusCode::Corrupt);

@@ -49,6 +49,8 @@ TEST(Golden, GoodFiles_HaveManifoldLevelsOfOneTopology)
 		const Bytes file  = readFile(std::string(WAVEMESH_GOLDEN_DIR) + "/" + name);
 		const auto finest = decode(file.data(), file.size());
 		ASSERT_TRUE(finest.ok()) << name << kHowTo;
+		if (finest->info.features.restored)
+			continue; // the original is not manifold
 		EXPECT_EQ(whatIsWrongWithLevels(finest->mesh, file), "") << name;
 	}
 }

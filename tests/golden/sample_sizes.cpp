@@ -12,7 +12,11 @@ const std::vector<std::string> kSamples {"blob",   "bracket", "island", "pebble"
                                          "pieces", "pretzel", "vase"};
 
 const std::vector<Configuration> kConfigurations {
-    {"I", kLiftingOff, Wgc::Off}, {"II", 0, Wgc::Off}, {"III", 0, Wgc::On}};
+    {"I", Mode::Classic, kLiftingOff, Wgc::Off, Optimize::Size, 2},
+    {"II", Mode::Classic, 0, Wgc::Off, Optimize::Size, 2},
+    {"III", Mode::Classic, 0, Wgc::On, Optimize::Size, 2},
+    {"compact_2", Mode::Compact, 0, Wgc::Auto, Optimize::Balanced, 2},
+    {"compact_3", Mode::Compact, 0, Wgc::Auto, Optimize::Balanced, 3}};
 
 namespace {
 
@@ -78,9 +82,12 @@ MeshData readSamplePly(const std::string& path)
 EncodedMesh encodeSample(const MeshData& mesh, const Configuration& configuration)
 {
 	EncodeOptions o;
-	o.bits    = 12;
-	o.lifting = configuration.lifting;
-	o.wgc     = configuration.wgc;
+	o.bits     = 12;
+	o.lifting  = configuration.lifting;
+	o.wgc      = configuration.wgc;
+	o.mode     = configuration.mode;
+	o.optimize = configuration.optimize;
+	o.effort   = configuration.effort;
 	return encode(mesh, o).value();
 }
 

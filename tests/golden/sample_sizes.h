@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The sizes of the sample meshes' files in the paper's configurations, at 12 bits.
+/// The sizes of the sample meshes' files in the paper's configurations and in the compact mode,
+/// at 12 bits.
 #pragma once
 
 #include <wavemesh/codec.h>
@@ -18,10 +19,14 @@ extern const std::vector<std::string> kSamples; ///< names without suffix
 struct Configuration
 {
 	const char* name;
+	Mode mode;
 	int lifting;
 	Wgc wgc;
+	Optimize optimize;
+	int effort;
 };
-extern const std::vector<Configuration> kConfigurations; ///< I, II, III of the paper
+/// I, II, III of the paper, and compact files by effort.
+extern const std::vector<Configuration> kConfigurations;
 
 EncodedMesh encodeSample(const MeshData& mesh, const Configuration& configuration);
 

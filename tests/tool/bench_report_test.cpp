@@ -42,7 +42,8 @@ TEST_F(WmcTest, ReportWritesTheSameNumbersAsCsv)
 	std::string line;
 	ASSERT_TRUE(std::getline(lines, line));
 	EXPECT_EQ(
-	    line, "configuration,level,kind,vertices,faces,bytes,prefix,bits_per_vertex,rms,max,error");
+	    line, "configuration,level,kind,vertices,faces,bytes,prefix,bits_per_vertex,rms,max,error,"
+	          "connectivity_bytes,geometry_bytes,rms_units,max_units");
 	std::size_t rows  = 0;
 	const auto levels = r.json()["levels"];
 	for (; std::getline(lines, line); ++rows) {
@@ -53,14 +54,14 @@ TEST_F(WmcTest, ReportWritesTheSameNumbersAsCsv)
 	EXPECT_EQ(rows, levels.size());
 }
 
-TEST_F(WmcTest, ReportComparesTheThreeConfigurations)
+TEST_F(WmcTest, ReportComparesTheThreeConfigurationsAndTheCompactMode)
 {
 	writeObj(path("a.obj"), makeStarPrism(16, 20));
 	const RunResult r =
 	    runWmc({"report", path("a.obj"), "--samples", "2000", "--configs", "--json"});
 	ASSERT_EQ(r.code, 0) << r.err;
 	const auto all = r.json()["configurations"];
-	ASSERT_EQ(all.size(), 3u);
+	ASSERT_EQ(all.size(), 4u);
 	EXPECT_EQ(all[0]["configuration"], "I");
 	EXPECT_EQ(all[0]["lifting"], "off");
 	EXPECT_EQ(all[0]["wgc"], "off");
@@ -68,9 +69,14 @@ TEST_F(WmcTest, ReportComparesTheThreeConfigurations)
 	EXPECT_EQ(all[1]["wgc"], "off");
 	EXPECT_EQ(all[2]["lifting"], "0");
 	EXPECT_EQ(all[2]["wgc"], "on");
+	for (std::size_t i = 0; i < 3; ++i)
+		EXPECT_EQ(all[i]["mode"], "classic");
+	EXPECT_EQ(all[3]["configuration"], "compact");
+	EXPECT_EQ(all[3]["mode"], "compact");
 	const RunResult text = runWmc({"report", path("a.obj"), "--samples", "2000", "--configs"});
 	EXPECT_EQ(text.code, 0);
 	EXPECT_NE(text.out.find("III"), std::string::npos);
+	EXPECT_NE(text.out.find("compact"), std::string::npos);
 }
 
 TEST_F(WmcTest, ReportIsTheSameEveryTime)

@@ -18,7 +18,8 @@ void expectCommonFields(const nlohmann::json& j)
 	for (std::size_t i = 0; i < j["levels"].size(); ++i) {
 		const auto& level = j["levels"][i];
 		EXPECT_EQ(level.at("level"), i);
-		EXPECT_EQ(level.at("kind"), i == 0 ? "base" : "split");
+		EXPECT_EQ(level.at("kind") == "base", i == 0);
+		EXPECT_TRUE(i == 0 || level.at("kind") == "split" || level.at("kind") == "precise");
 		for (const char* key : {"vertices", "faces", "bytes", "error"})
 			EXPECT_TRUE(level.at(key).is_number()) << key;
 	}
@@ -52,7 +53,11 @@ TEST_F(WmcTest, WrongCommandLinesExitWithTwoAndOneLine)
 	    {"encode", in, out, "--step", "-1"},
 	    {"encode", in, out, "--bits", "10", "--step", "0.1"},
 	    {"encode", in, out, "--mode", "magic"},
-	    {"encode", in, out, "--lifting", "3"},
+	    {"encode", in, out, "--mode", "classic", "--lifting", "3"},
+	    {"encode", in, out, "--mode", "modern"},
+	    {"encode", in, out, "--effort", "0"},
+	    {"encode", in, out, "--effort", "4"},
+	    {"encode", in, out, "--optimize", "speed"},
 	    {"encode", in, out, "--wgc", "maybe"},
 	    {"encode", in, out, "--unknown"},
 	    {"encode", in, out, "extra"},
@@ -184,7 +189,7 @@ TEST_F(WmcTest, DecodesToTheLevelAskedFor)
 
 TEST_F(WmcTest, MaxBytesDecodesAsIfTheFileEndedThere)
 {
-	const std::string wmc = encoded("a", makeBumpySphere(900, 3));
+	const std::string wmc = encoded("a", makeBumpySphere(900, 3), {"--mode", "classic"});
 	const FileBytes bytes = readAll(wmc);
 	const auto levels     = runWmc({"info", wmc, "--json"}).json()["levels"];
 	const auto n          = levels[levels.size() - 2]["prefix"].get<std::size_t>();
@@ -224,11 +229,54 @@ TEST_F(WmcTest, OptionsReachTheFile)
 	EXPECT_EQ(info({"--bits", "9"})["bits"], 9);
 	EXPECT_DOUBLE_EQ(info({"--step", "0.125"})["step"].get<double>(), 0.125);
 	for (const std::string lifting : {"off", "0", "1", "2"})
-		EXPECT_EQ(info({"--lifting", lifting})["lifting"], lifting);
-	EXPECT_EQ(info({"--wgc", "off"})["wgc"], "off");
-	EXPECT_EQ(info({"--wgc", "on"})["wgc"], "on");
-	const auto smallest = std::min(info({"--wgc", "off"})["bytes"], info({"--wgc", "on"})["bytes"]);
-	EXPECT_EQ(info({"--wgc", "auto"})["bytes"], smallest);
+		EXPECT_EQ(info({"--mode", "classic", "--lifting", lifting})["lifting"], lifting);
+	for (const std::string mode : {"classic", "compact"}) {
+		EXPECT_EQ(info({"--mode", mode})["mode"], mode);
+		EXPECT_EQ(info({"--mode", mode, "--wgc", "off"})["wgc"], "off");
+		EXPECT_EQ(info({"--mode", mode, "--wgc", "on"})["wgc"], "on");
+	}
+	EXPECT_EQ(info({})["mode"], "compact");
+	EXPECT_EQ(info({"--effort", "1"})["mode"], "classic");
+}
+
+TEST_F(WmcTest, WgcAutoIsTheSmallerWhereBothAreTried)
+{
+	const MeshData mesh                    = makeStarPrism(16, 20);
+	const std::vector<std::string> tried[] = {
+	    {"--mode", "classic"}, {"--mode", "compact", "--effort", "3"}};
+	for (const auto& options : tried) {
+		const auto bytes = [&](const std::string& wgc) {
+			auto all = options;
+			all.insert(all.end(), {"--optimize", "size", "--wgc", wgc});
+			return runWmc({"info", encoded("a", mesh, all), "--json"}).json()["bytes"];
+		};
+		EXPECT_EQ(bytes("auto"), std::min(bytes("off"), bytes("on"))) << options[1];
+	}
+}
+
+TEST_F(WmcTest, EffortAndAimReachTheFile)
+{
+	const MeshData mesh = makeBumpySphere(900, 1);
+	const auto file     = [&](const std::vector<std::string>& options) {
+        return readAll(encoded("a", mesh, options));
+	};
+	EXPECT_LE(file({"--effort", "3"}).size(), file({"--effort", "2"}).size());
+	EXPECT_LT(file({"--effort", "2"}).size(), file({"--effort", "1"}).size());
+	EXPECT_EQ(file({"--optimize", "balanced"}), file({}));
+	EXPECT_NE(file({"--optimize", "size"}), file({}));
+	EXPECT_NE(file({"--optimize", "levels"}), file({}));
+}
+
+TEST_F(WmcTest, InfoShowsThePrecisionOfEveryLevel)
+{
+	const auto j       = runWmc({"info", encoded("a", makeBumpySphere(900, 1)), "--json"}).json();
+	const auto& levels = j["levels"];
+	int before         = 0;
+	for (const auto& level : levels) {
+		EXPECT_EQ(level["bits"].get<int>() > before, level["kind"] != "split");
+		before = level["bits"].get<int>();
+	}
+	EXPECT_EQ(before, 12);
 }
 
 TEST_F(WmcTest, InfoReadsTheHeadOnly)

@@ -49,9 +49,18 @@ TEST_F(Verify, HoldsForEveryConfiguration)
 	for (const std::string lifting : {"off", "0", "1", "2"})
 		for (const std::string wgc : {"off", "on"})
 			for (const std::string bits : {"1", "6", "12", "20", "24"}) {
-				encoded("a", mesh, {"--lifting", lifting, "--wgc", wgc, "--bits", bits});
+				encoded(
+				    "a", mesh,
+				    {"--mode", "classic", "--lifting", lifting, "--wgc", wgc, "--bits", bits});
 				const RunResult r = against(mesh);
 				EXPECT_EQ(r.code, 0) << lifting << wgc << bits << r.err;
+			}
+	for (const std::string effort : {"1", "2", "3"})
+		for (const std::string optimize : {"size", "balanced", "levels"})
+			for (const std::string bits : {"1", "12", "24"}) {
+				encoded("a", mesh, {"--effort", effort, "--optimize", optimize, "--bits", bits});
+				const RunResult r = against(mesh);
+				EXPECT_EQ(r.code, 0) << effort << optimize << bits << r.err;
 			}
 }
 

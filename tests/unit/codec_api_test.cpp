@@ -66,18 +66,38 @@ TEST(Encode, NeverModifiesItsInput)
 	EXPECT_EQ(mesh.triangles, copy.triangles);
 }
 
-TEST(Encode, WgcAuto_IsTheSmallerOfBoth)
+TEST(Encode, WgcAuto_IsTheSmallerOfBothInClassicFilesAndAtEffort3)
 {
 	for (const MeshData& mesh :
-	     {makeStarPrism(16, 20), makeBumpySphere(400, 122), makeHoledPlate(2, 4)}) {
-		EncodeOptions o;
-		const auto size = [&](Wgc wgc) {
-			o.wgc = wgc;
-			return encode(mesh, o)->bytes.size();
-		};
-		const std::size_t off = size(Wgc::Off), on = size(Wgc::On);
-		EXPECT_EQ(size(Wgc::Auto), std::min(off, on));
-	}
+	     {makeStarPrism(16, 20), makeBumpySphere(400, 122), makeHoledPlate(2, 4)})
+		for (const Mode mode : {Mode::Classic, Mode::Compact}) {
+			EncodeOptions o;
+			o.mode          = mode;
+			o.effort        = mode == Mode::Classic ? 2 : 3;
+			const auto size = [&](Wgc wgc) {
+				o.wgc = wgc;
+				return encode(mesh, o)->bytes.size();
+			};
+			const std::size_t off = size(Wgc::Off), on = size(Wgc::On);
+			EXPECT_EQ(size(Wgc::Auto), std::min(off, on));
+		}
+}
+
+TEST(Encode, WgcAuto_IsOffInCompactFilesBelowEffort3AndForLevels)
+{
+	const MeshData mesh = makeStarPrism(16, 20);
+	const auto bytes    = [&](int effort, Optimize optimize, Wgc wgc) {
+        EncodeOptions o;
+        o.effort   = effort;
+        o.optimize = optimize;
+        o.wgc      = wgc;
+        return encode(mesh, o)->bytes;
+	};
+	for (const int effort : {1, 2})
+		EXPECT_EQ(
+		    bytes(effort, Optimize::Balanced, Wgc::Auto),
+		    bytes(effort, Optimize::Balanced, Wgc::Off));
+	EXPECT_EQ(bytes(3, Optimize::Levels, Wgc::Auto), bytes(3, Optimize::Levels, Wgc::Off));
 }
 
 TEST(Encode, SameInput_GivesTheSameBytes)

@@ -56,6 +56,24 @@ std::string whatIsLost(const MeshData& original, const MeshData& decoded, const 
 
 namespace {
 
+/// Without lifting a vertex never moves by more than its precision grows: it is in the cell where
+/// the finest mesh has it, whose width is one lattice step at full precision.
+std::string whatLeftItsCell(
+    const MeshData& level, const MeshData& finest, const StreamInfo& info, std::size_t j)
+{
+	const auto cell = static_cast<double>(std::int64_t {1} << (info.bits - info.levels[j].bits));
+	for (std::size_t v = 0; v < level.positions.size(); ++v)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const double truth = std::round((finest.positions[v][k] - info.origin[k]) / info.step);
+			const double low   = std::floor(truth / cell) * cell;
+			// Where a whole lattice point is, told as Lattice tells it.
+			const double x = level.positions[v][k], o = info.origin[k];
+			if (x < o + info.step * low || x > o + info.step * (low + cell - 1))
+				return "vertex " + std::to_string(v) + " is not in its cell";
+		}
+	return {};
+}
+
 std::string
 compareTopology(const Topology& expected, const Topology& found, const std::string& where)
 {
@@ -94,13 +112,13 @@ std::string whatIsWrongWithLevels(const MeshData& original, const std::vector<st
 			return where + ": " + s;
 		if (std::string s = compareTopology(expected, found, where); !s.empty())
 			return s;
-		if (j == 0 || info->lifting != kLiftingOff)
+		if (info->lifting != kLiftingOff)
 			continue;
-		// Without lifting a vertex never moves: the same place is the same vertex.
-		const auto& before = levels[j - 1].mesh.positions;
-		for (std::size_t v = 0; v < before.size(); ++v)
-			if (before[v] != level.mesh.positions[v])
-				return where + ": vertex " + std::to_string(v) + " of the level before moved";
+		if (std::string s = whatLeftItsCell(level.mesh, levels.back().mesh, *info, j); !s.empty())
+			return where + ": " + s;
+		const LevelInfo& row = info->levels[j];
+		if (!(row.error >= 0) || (j + 1 == levels.size() && row.error != 0))
+			return where + " has a wrong error figure";
 	}
 	return {};
 }

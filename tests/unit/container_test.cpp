@@ -127,12 +127,15 @@ TEST(Chunk, OfAbsurdLength_IsCutNotRead)
 	}
 }
 
+/// Every second one is of a compact file.
 Head someHead(std::uint64_t seed)
 {
 	Rng rng(seed);
 	Head h;
-	h.lifting      = static_cast<int>(rng.below(4)) - 1;
+	h.mode         = seed % 2 == 0 ? Mode::Classic : Mode::Compact;
+	h.lifting      = h.mode == Mode::Classic ? static_cast<int>(rng.below(4)) - 1 : kLiftingOff;
 	h.wgc          = rng.below(2) == 1;
+	h.rich         = rng.below(2) == 1;
 	h.lattice.bits = 1 + static_cast<int>(rng.below(24));
 	h.lattice.step = rng.below(2) ? 0.25 : rng.unit() * 1e-5;
 	for (double& x : h.lattice.origin)
@@ -144,17 +147,28 @@ Head someHead(std::uint64_t seed)
 	row.faces                  = std::max(row.faces, row.vertices / 3 + 1);
 	const std::uint32_t levels = 1 + rng.below(20);
 	for (std::uint32_t i = 0; i < levels; ++i) {
-		row.kind              = i == 0 ? LevelKind::Base : LevelKind::Split;
-		row.bytes             = rng.below(1000);
+		const bool precise = h.mode == Mode::Compact && i > 0 && rng.below(2) == 1;
+		row.kind  = i == 0 ? LevelKind::Base : precise ? LevelKind::Precise : LevelKind::Split;
+		row.bytes = rng.below(1000);
 		row.connectivityBytes = rng.below(row.bytes + 1);
 		row.errorCode         = static_cast<std::uint8_t>(i + 1 == levels ? 0 : rng.below(256));
 		row.endsChunk         = i + 1 == levels || rng.below(2) == 1;
-		h.rows.push_back(row);
-		if (row.faces < 1000000) {
+		if (i > 0 && !precise && row.faces < 1000000) {
 			const std::uint32_t more = 1 + rng.below(row.faces);
 			row.vertices += more;
 			row.faces += std::min(2 * more, 3 * row.faces);
 		}
+		h.rows.push_back(row);
+	}
+	// From full precision down, as far as the bits go.
+	for (std::size_t i = h.rows.size() - 1; i > 0; --i) {
+		LevelRow &finer = h.rows[i], &coarser = h.rows[i - 1];
+		const int left = h.lattice.bits - 1 - finer.shift;
+		if (finer.kind == LevelKind::Precise && left == 0)
+			finer.kind = LevelKind::Split;
+		coarser.shift = finer.shift;
+		if (finer.kind == LevelKind::Precise)
+			coarser.shift += 1 + static_cast<int>(rng.below(static_cast<std::uint32_t>(left)));
 	}
 	return h;
 }
@@ -174,6 +188,7 @@ TEST(Head, EveryFieldComesBack)
 		EXPECT_EQ(read->mode, h.mode);
 		EXPECT_EQ(read->lifting, h.lifting);
 		EXPECT_EQ(read->wgc, h.wgc);
+		EXPECT_EQ(read->rich, h.rich);
 		EXPECT_EQ(read->lattice.bits, h.lattice.bits);
 		EXPECT_EQ(read->lattice.step, h.lattice.step);
 		EXPECT_EQ(read->lattice.origin, h.lattice.origin);
@@ -182,6 +197,7 @@ TEST(Head, EveryFieldComesBack)
 		for (std::size_t i = 0; i < h.rows.size(); ++i) {
 			const LevelRow &a = h.rows[i], &b = read->rows[i];
 			EXPECT_EQ(b.kind, a.kind);
+			EXPECT_EQ(b.shift, a.shift) << seed << ' ' << i;
 			EXPECT_EQ(b.vertices, a.vertices);
 			EXPECT_EQ(b.faces, a.faces);
 			EXPECT_EQ(b.bytes, a.bytes);
@@ -202,9 +218,9 @@ StatusCode codeOf(const Head& h)
 
 TEST(Head, WithALevelThatASplitCannotGive_IsCorrupt)
 {
-	Head good = someHead(1);
+	Head good = someHead(2);
 	while (good.rows.size() < 2)
-		good = someHead(good.digest);
+		good = someHead(good.digest / 2 * 2);
 	ASSERT_EQ(codeOf(good), StatusCode::Ok);
 	Head h              = good;
 	h.rows.back().faces = 4 * h.rows[h.rows.size() - 2].faces + 1;
@@ -218,6 +234,51 @@ TEST(Head, WithALevelThatASplitCannotGive_IsCorrupt)
 	h                               = good;
 	h.rows.back().connectivityBytes = h.rows.back().bytes + 1;
 	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "a part larger than the whole";
+}
+
+/// Base, split, precise, precise.
+Head compactHead(int bits, int firstBits, int lastBits)
+{
+	Head h;
+	h.mode         = Mode::Compact;
+	h.lattice.bits = bits;
+	h.rows.resize(4);
+	h.rows[0] = {LevelKind::Base, 4, 4, 20, 5, 40, firstBits + lastBits, false};
+	h.rows[1] = {LevelKind::Split, 6, 8, 20, 5, 30, firstBits + lastBits, false};
+	h.rows[2] = {LevelKind::Precise, 6, 8, 20, 0, 20, lastBits, true};
+	h.rows[3] = {LevelKind::Precise, 6, 8, 20, 0, 0, 0, true};
+	return h;
+}
+
+TEST(Head, WhoseBaseHasNoBitsLeft_IsCorrupt)
+{
+	for (const int bits : {3, 12, 24}) {
+		EXPECT_EQ(codeOf(compactHead(bits, 1, bits - 2)), StatusCode::Ok) << bits;
+		EXPECT_EQ(codeOf(compactHead(bits, 1, bits - 1)), StatusCode::Corrupt) << bits;
+		EXPECT_EQ(codeOf(compactHead(bits, bits - 1, bits)), StatusCode::Corrupt) << bits;
+	}
+}
+
+TEST(Head, WithTheLargestShiftsThatItCanSay_IsCorruptNotMore)
+{
+	EXPECT_EQ(codeOf(compactHead(24, 32, 32)), StatusCode::Corrupt);
+	// Every row a precise one with the most bits: no sum may overflow.
+	Head h = compactHead(24, 1, 1);
+	h.rows.insert(h.rows.end() - 1, 4000, h.rows[2]);
+	int shift = 0;
+	for (std::size_t i = h.rows.size() - 1; i > 1; --i)
+		h.rows[i - 1].shift = shift += 32;
+	h.rows[0].shift = shift;
+	EXPECT_EQ(codeOf(h), StatusCode::Corrupt);
+}
+
+TEST(Head, OfACompactFileWithLifting_IsCorrupt)
+{
+	for (const int lifting : {0, 1, 2}) {
+		Head h    = compactHead(12, 1, 2);
+		h.lifting = lifting;
+		EXPECT_EQ(codeOf(h), StatusCode::Corrupt);
+	}
 }
 
 TEST(Head, WithAFrameThatIsNotALattice_IsCorrupt)

@@ -38,8 +38,10 @@ bool print(const char* name, const MeshData& mesh, const EncodeOptions& o)
 	if (!back.ok())
 		return false;
 	std::printf(
-	    "%s bits %d lifting %d wgc %d optimize %d: %zu bytes %016llx mesh %016llx\n", name, o.bits,
-	    o.lifting, int(o.wgc), int(o.optimize), file->bytes.size(),
+	    "%s mode %d effort %d bits %d lifting %d wgc %d optimize %d: %zu bytes %016llx mesh "
+	    "%016llx\n",
+	    name, int(o.mode), o.effort, o.bits, o.lifting, int(o.wgc), int(o.optimize),
+	    file->bytes.size(),
 	    static_cast<unsigned long long>(hashOf(file->bytes.data(), file->bytes.size())),
 	    static_cast<unsigned long long>(hashOf(back->mesh)));
 	return true;
@@ -57,7 +59,7 @@ int main()
 	    {"holed_plate", test::makeHoledPlate(2, 4)},
 	    {"far_away", test::moved(test::makeBumpySphere(300, 5), 1e5, -2e5, 3e5)},
 	};
-	for (const auto& m : meshes)
+	for (const auto& m : meshes) {
 		for (int lifting = kLiftingOff; lifting <= 2; ++lifting) {
 			EncodeOptions o;
 			o.bits     = 12 + 2 * lifting;
@@ -67,9 +69,21 @@ int main()
 			             : lifting == 1   ? Optimize::Balanced
 			                              : Optimize::Levels;
 			o.effort   = lifting == 0 ? 1 : 2;
-			o.mode     = lifting == 1 ? Mode::Compact : Mode::Classic;
+			o.mode     = Mode::Classic;
 			if (!print(m.name.c_str(), m.mesh, o))
 				return 1;
 		}
+		for (const int effort : {2, 3}) {
+			EncodeOptions o;
+			o.mode     = Mode::Compact;
+			o.effort   = effort;
+			o.bits     = effort == 2 ? 12 : 18;
+			o.optimize = effort == 2 ? Optimize::Balanced : Optimize::Size;
+			if (effort == 3 && m.mesh.positions.size() > 500)
+				continue; // tried in ten ways, at -O0 too
+			if (!print(m.name.c_str(), m.mesh, o))
+				return 1;
+		}
+	}
 	return 0;
 }

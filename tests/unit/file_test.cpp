@@ -162,6 +162,8 @@ TEST(ErrorFigure, OfALevel_IsTheRootMeanSquareOfTheDetailsItLacks)
 {
 	const MeshData mesh = makeBumpySphere(400, 113);
 	EncodeOptions o;
+	o.mode          = Mode::Classic;
+	o.optimize      = Optimize::Size;
 	o.lifting       = kLiftingOff;
 	o.wgc           = Wgc::Off;
 	const auto file = encode(mesh, o);

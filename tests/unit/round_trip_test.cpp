@@ -10,26 +10,29 @@
 namespace wavemesh::test {
 namespace {
 
-constexpr int kBits[]          = {1, 8, 10, 12, 16, 20, 24};
+constexpr int kBits[]          = {1, 2, 8, 12, 16, 20, 24};
+constexpr Mode kModes[]        = {Mode::Classic, Mode::Compact};
 constexpr int kLifting[]       = {kLiftingOff, 0, 1, 2};
 constexpr Wgc kWgc[]           = {Wgc::Off, Wgc::On, Wgc::Auto};
 constexpr Optimize kOptimize[] = {Optimize::Size, Optimize::Balanced, Optimize::Levels};
 
-/// Every pair of bits and lifting, and among any three of these in a row every WGC and every aim.
-std::vector<EncodeOptions> everyPairOfOptions()
+/// Every bits, mode, effort and aim; classic with every lifting, the criterion in turn.
+std::vector<EncodeOptions> everyOption()
 {
 	std::vector<EncodeOptions> all;
 	for (int bits : kBits)
-		for (int lifting : kLifting) {
-			EncodeOptions o;
-			o.bits     = bits;
-			o.lifting  = lifting;
-			o.wgc      = kWgc[all.size() % 3];
-			o.optimize = kOptimize[(all.size() + all.size() / 3) % 3];
-			o.effort   = 1 + static_cast<int>(all.size() / 2 % 3);
-			o.mode     = all.size() % 2 == 0 ? Mode::Compact : Mode::Classic;
-			all.push_back(o);
-		}
+		for (Optimize optimize : kOptimize)
+			for (int effort : {1, 2, 3})
+				for (Mode mode : kModes) {
+					EncodeOptions o;
+					o.bits     = bits;
+					o.optimize = optimize;
+					o.effort   = effort;
+					o.mode     = mode;
+					o.lifting  = kLifting[all.size() / 2 % 4];
+					o.wgc      = kWgc[(all.size() / 2 + all.size() / 6) % 3];
+					all.push_back(o);
+				}
 	return all;
 }
 
@@ -57,11 +60,11 @@ class EveryFamily : public testing::TestWithParam<NamedMesh>
 TEST_P(EveryFamily, RoundTrip_IsLatticeLosslessAndEveryLevelManifold)
 {
 	const MeshData& mesh = GetParam().mesh;
-	const auto all       = everyPairOfOptions();
+	const auto all       = everyOption();
 	// Small meshes with all options, others with some, each with other ones.
 	const std::size_t stride = mesh.positions.size() <= 60    ? 1
-	                           : mesh.positions.size() <= 450 ? 3
-	                                                          : 9;
+	                           : mesh.positions.size() <= 450 ? 11
+	                                                          : 29;
 	for (std::size_t i = mesh.triangles.size() % stride; i < all.size(); i += stride)
 		ASSERT_EQ(whatFails(mesh, all[i], true), "") << nameOf(all[i]);
 }
@@ -71,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
 	    return family.param.name;
     });
 
-TEST(RoundTrip, EveryCombinationOfOptionsIsLossless)
+TEST(RoundTrip, EveryCombinationOfClassicOptionsIsLossless)
 {
 	const MeshData mesh = joined({makeFlippedSphere(150, 71), makeTerrain(100, 72)});
 	for (int bits : kBits)
@@ -79,6 +82,7 @@ TEST(RoundTrip, EveryCombinationOfOptionsIsLossless)
 			for (Wgc wgc : kWgc)
 				for (Optimize optimize : kOptimize) {
 					EncodeOptions o;
+					o.mode     = Mode::Classic;
 					o.bits     = bits;
 					o.lifting  = lifting;
 					o.wgc      = wgc;
@@ -89,13 +93,15 @@ TEST(RoundTrip, EveryCombinationOfOptionsIsLossless)
 
 TEST(RoundTrip, StepInModelUnitsIsKept)
 {
-	for (double step : {1e-6, 0.001, 0.01, 0.1, 1.0, 3.0, 1000.0}) {
-		EncodeOptions o;
-		o.step              = step;
-		const MeshData mesh = makeBumpySphere(300, 73);
-		ASSERT_EQ(whatFails(mesh, o, true), "") << step;
-		ASSERT_EQ(encode(mesh, o)->info.step, step);
-	}
+	for (Mode mode : kModes)
+		for (double step : {1e-6, 0.001, 0.01, 0.1, 1.0, 3.0, 1000.0}) {
+			EncodeOptions o;
+			o.mode              = mode;
+			o.step              = step;
+			const MeshData mesh = makeBumpySphere(300, 73);
+			ASSERT_EQ(whatFails(mesh, o, true), "") << step;
+			ASSERT_EQ(encode(mesh, o)->info.step, step);
+		}
 }
 
 TEST(RoundTrip, NoVertexMovesFartherThanHalfAStep)
@@ -128,6 +134,7 @@ TEST(RoundTrip, ConnectivityOfEveryLevelIsTheSameWhateverTheLifting)
 	for (const MeshData& mesh :
 	     {makeBumpySphere(400, 74), makeTerrain(300, 75), makeHoledPlate(2, 3)}) {
 		EncodeOptions o;
+		o.mode          = Mode::Classic;
 		o.wgc           = Wgc::Off;
 		o.lifting       = kLiftingOff;
 		const auto lazy = levelsOf(encode(mesh, o)->bytes);
@@ -143,17 +150,21 @@ TEST(RoundTrip, ConnectivityOfEveryLevelIsTheSameWhateverTheLifting)
 
 TEST(RoundTrip, DecoderAndDecodeAgreeOnEveryLevel)
 {
-	const auto file   = encode(makeCollapsedSphere(300, 76));
-	const auto levels = levelsOf(file->bytes);
-	ASSERT_EQ(levels.size(), file->info.levels.size());
-	for (std::size_t j = 0; j < levels.size(); ++j) {
-		DecodeOptions o;
-		o.level         = static_cast<int>(j);
-		const auto back = decode(file->bytes.data(), file->bytes.size(), o);
-		ASSERT_TRUE(back.ok());
-		EXPECT_EQ(back->level, o.level);
-		EXPECT_EQ(back->mesh.triangles, levels[j].mesh.triangles);
-		EXPECT_EQ(back->mesh.positions, levels[j].mesh.positions);
+	for (Mode mode : kModes) {
+		EncodeOptions options;
+		options.mode      = mode;
+		const auto file   = encode(makeCollapsedSphere(300, 76), options);
+		const auto levels = levelsOf(file->bytes);
+		ASSERT_EQ(levels.size(), file->info.levels.size());
+		for (std::size_t j = 0; j < levels.size(); ++j) {
+			DecodeOptions o;
+			o.level         = static_cast<int>(j);
+			const auto back = decode(file->bytes.data(), file->bytes.size(), o);
+			ASSERT_TRUE(back.ok());
+			EXPECT_EQ(back->level, o.level);
+			EXPECT_EQ(back->mesh.triangles, levels[j].mesh.triangles);
+			EXPECT_EQ(back->mesh.positions, levels[j].mesh.positions);
+		}
 	}
 }
 

@@ -15,6 +15,20 @@ class EveryPrefix : public testing::TestWithParam<SmallFile>
 protected:
 	const Bytes& file() const { return GetParam().encoded.bytes; }
 	const std::vector<LevelInfo>& table() const { return GetParam().encoded.info.levels; }
+	/// Does anything follow the levels?
+	bool finishes() const
+	{
+		const StreamFeatures& f = GetParam().encoded.info.features;
+		return f.restored || f.orderKept || f.exact || f.attributes;
+	}
+	static std::uint32_t largestIndex(const MeshData& mesh)
+	{
+		std::uint32_t largest = 0;
+		for (const auto& t : mesh.triangles)
+			largest = std::max({largest, t[0], t[1], t[2]});
+		return largest;
+	}
+
 	/// Finest level that a prefix of n bytes holds whole, -1 if none.
 	int wholeLevels(std::size_t n) const
 	{
@@ -42,6 +56,10 @@ TEST_P(EveryPrefix, Decode_GivesTheLevelThatIsWholeOrThePartOfTheNext)
 		ASSERT_EQ(back.status().byteOffset, n);
 		ASSERT_GE(back->level, whole) << n;
 		ASSERT_LE(back->level, whole + 1) << n;
+		if (finishes() && back->level + 1 == int(levels.size())) {
+			ASSERT_LT(largestIndex(back->mesh), back->mesh.positions.size()) << n;
+			continue; // the finest level, with what came of what follows it
+		}
 		const MeshData& full = levels[static_cast<std::size_t>(back->level)].mesh;
 		ASSERT_EQ(back->mesh.triangles, full.triangles) << n;
 		if (back->level == whole) {
@@ -71,10 +89,71 @@ TEST_P(EveryPrefix, PrefixInTheLevelTable_IsTheShortestThatHoldsTheLevel)
 	}
 }
 
+TEST_P(EveryPrefix, Levels_NeverGetFewerAsBytesArrive)
+{
+	int before = -1;
+	for (std::size_t n = 0; n <= file().size(); ++n) {
+		const ExactBuffer cut(file().data(), n);
+		const auto back = decode(cut.data(), cut.size());
+		const int level = back.hasValue() ? back->level : -1;
+		ASSERT_GE(level, before) << n;
+		before = level;
+	}
+	EXPECT_EQ(before, GetParam().encoded.info.finestLevel());
+}
+
+TEST_P(EveryPrefix, CutCompactLevel_LeavesEveryVertexInsideItsCell)
+{
+	const StreamInfo& info = GetParam().encoded.info;
+	if (info.mode != Mode::Compact)
+		GTEST_SKIP() << "classic";
+	const auto levels = levelsOf(file());
+	const auto truth  = latticeOf(levels.back().mesh, info);
+	for (std::size_t n = 0; n < file().size(); ++n) {
+		const ExactBuffer cut(file().data(), n);
+		const auto back = decode(cut.data(), cut.size());
+		if (!back.hasValue() || table()[std::size_t(back->level)].kind == LevelKind::Split)
+			continue; // new vertices that did not arrive may be anywhere between their parents
+		const int bits    = table()[std::size_t(std::max(back->level - 1, 0))].bits;
+		const double cell = double(std::int64_t {1} << (info.bits - bits));
+		for (std::size_t v = 0; v < back->mesh.positions.size(); ++v)
+			for (std::size_t k = 0; k < 3; ++k) {
+				const double x = (back->mesh.positions[v][k] - info.origin[k]) / info.step;
+				ASSERT_LT(std::abs(x - double(truth[v][k])), cell) << n << ' ' << v;
+			}
+	}
+}
+
+TEST_P(EveryPrefix, ExactVertices_NeverGetFewerWithinTheCompactLevelOfFullPrecision)
+{
+	const StreamInfo& info = GetParam().encoded.info;
+	if (info.mode != Mode::Compact)
+		GTEST_SKIP() << "classic";
+	const auto levels = levelsOf(file());
+	std::vector<std::size_t> before(levels.size(), 0);
+	for (std::size_t n = 0; n <= file().size(); ++n) {
+		const ExactBuffer cut(file().data(), n);
+		const auto back = decode(cut.data(), cut.size());
+		if (!back.hasValue() || table()[std::size_t(back->level)].bits < info.bits)
+			continue;
+		const auto& full  = levels[std::size_t(back->level)].mesh.positions;
+		std::size_t exact = 0;
+		for (std::size_t v = 0; v < full.size(); ++v)
+			exact += back->mesh.positions[v] == full[v];
+		ASSERT_GE(exact, before[std::size_t(back->level)]) << n;
+		before[std::size_t(back->level)] = exact;
+	}
+	EXPECT_EQ(before.back(), levels.back().mesh.positions.size());
+}
+
 TEST_P(EveryPrefix, VerticesThatArrived_AreExactWithoutLifting)
 {
 	if (GetParam().encoded.info.lifting != kLiftingOff)
 		GTEST_SKIP() << "lifting moves the parents as details arrive";
+	if (finishes())
+		GTEST_SKIP() << "the finest mesh is numbered anew";
+	if (GetParam().encoded.info.mode == Mode::Compact)
+		GTEST_SKIP() << "vertices arrive along a walk, and levels differ in precision";
 	const auto levels  = levelsOf(file());
 	std::size_t before = 0;
 	for (std::size_t n = 0; n <= file().size(); ++n) {
@@ -154,8 +233,14 @@ TEST_P(EveryPrefix, LevelTable_AddsUpToTheFile)
 	const StreamInfo& info = GetParam().encoded.info;
 	EXPECT_LE(info.connectivityBytes + info.geometryBytes, file().size());
 	EXPECT_EQ(table().back().error, 0);
-	for (std::size_t j = 1; j < table().size(); ++j)
-		EXPECT_LE(table()[j].error, table()[j - 1].error);
+	EXPECT_EQ(table().back().bits, info.bits);
+	for (std::size_t j = 1; j < table().size(); ++j) {
+		EXPECT_GE(table()[j].error, 0);
+		if (info.mode == Mode::Classic) {
+			EXPECT_LE(table()[j].error, table()[j - 1].error);
+		}
+		EXPECT_EQ(table()[j].bits > table()[j - 1].bits, table()[j].kind == LevelKind::Precise);
+	}
 }
 
 TEST_P(EveryPrefix, ReadInfo_SaysWhatEncodeSaid)
@@ -164,6 +249,7 @@ TEST_P(EveryPrefix, ReadInfo_SaysWhatEncodeSaid)
 	ASSERT_TRUE(info.ok());
 	const StreamInfo& said = GetParam().encoded.info;
 	EXPECT_EQ(info->bytes, file().size());
+	EXPECT_EQ(info->mode, said.mode);
 	EXPECT_EQ(info->lifting, said.lifting);
 	EXPECT_EQ(info->wgc, said.wgc);
 	EXPECT_EQ(info->bits, said.bits);
@@ -181,7 +267,26 @@ TEST_P(EveryPrefix, ReadInfo_SaysWhatEncodeSaid)
 		EXPECT_EQ(info->levels[j].bytes, said.levels[j].bytes);
 		EXPECT_EQ(info->levels[j].prefix, said.levels[j].prefix);
 		EXPECT_EQ(info->levels[j].error, said.levels[j].error);
+		EXPECT_EQ(info->levels[j].bits, said.levels[j].bits);
 	}
+}
+
+TEST(SmallFiles, AreOfEveryKindOfSchedule)
+{
+	int alternating = 0, wholeAtTheEnd = 0, classic = 0;
+	for (const SmallFile& small : smallFiles()) {
+		const auto& levels = small.encoded.info.levels;
+		int turns          = 0; // from precise to split
+		for (std::size_t j = 1; j < levels.size(); ++j)
+			turns += levels[j].kind == LevelKind::Split && levels[j - 1].kind == LevelKind::Precise;
+		const std::size_t last = levels.size() - 1;
+		alternating += turns >= 1;
+		wholeAtTheEnd += last >= 2 && levels[last].bits - levels[last - 1].bits > 2;
+		classic += small.encoded.info.mode == Mode::Classic;
+	}
+	EXPECT_GE(alternating, 2);
+	EXPECT_GE(wholeAtTheEnd, 2);
+	EXPECT_GE(classic, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -50,8 +50,8 @@ struct SmallFile
 	MeshData original;
 	EncodedMesh encoded;
 };
-/// Files of a few hundred bytes: closed, open, several components, lifting off and on, one level
-/// and several, one chunk and several.
+/// Files of a few hundred bytes in both modes: closed, open, several components, lifting off and
+/// on, schedules of all types, one level and several, one chunk and several.
 std::vector<SmallFile> smallFiles();
 
 } // namespace wavemesh::test

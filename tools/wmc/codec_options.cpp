@@ -76,8 +76,8 @@ void CodecOptions::addTo(CLI::App& command)
 	    .add_option(
 	        "--wgc", wgc,
 	        "Wavelet geometrical criterion, keeps sharp edges in coarse levels: off, on, or auto "
-	        "(both are tried and the smaller file is kept; compact: with --effort 3 only, else on "
-	        "for balanced and off for size)")
+	        "(size: both are tried and the smaller file is kept, in compact mode with --effort 3 "
+	        "only, else off; balanced: on; levels does without it)")
 	    ->check(CLI::IsMember({"off", "on", "auto"}))
 	    ->capture_default_str()
 	    ->group(group);
@@ -101,6 +101,11 @@ void CodecOptions::addTo(CLI::App& command)
 	        "--exact", exact,
 	        "Keep every coordinate bit for bit: the finest level is float-lossless")
 	    ->group(group);
+	command
+	    .add_flag(
+	        "--keep-order", keepOrder,
+	        "Keep the order of vertices and faces, and each face's first corner")
+	    ->group(group);
 }
 
 EncodeOptions CodecOptions::toEncodeOptions() const
@@ -118,6 +123,7 @@ EncodeOptions CodecOptions::toEncodeOptions() const
 	o.wgcSharpness = sharpness;
 	o.wgcDeviation = deviation;
 	o.exact        = exact;
+	o.keepOrder    = keepOrder;
 	return o;
 }
 
@@ -160,7 +166,8 @@ std::string nameOf(const EncodeOptions& o)
 	       (o.wgc == Wgc::Off  ? "off"
 	        : o.wgc == Wgc::On ? "on"
 	                           : "auto") +
-	       ", optimize " + nameOf(o.optimize) + (o.exact ? ", exact" : "");
+	       ", optimize " + nameOf(o.optimize) + (o.exact ? ", exact" : "") +
+	       (o.keepOrder ? ", order kept" : "");
 }
 
 std::string messageOf(const std::string& path, const Status& status)

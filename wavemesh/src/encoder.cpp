@@ -3,6 +3,7 @@
 #include "encode/classic.h"
 #include "encode/compact.h"
 #include "finish/finish.h"
+#include "wavelet/lifting.h"
 
 #include <wavemesh/codec.h>
 
@@ -35,7 +36,7 @@ Steering steeringFor(Optimize optimize)
 {
 	switch (optimize) {
 	case Optimize::Balanced:
-		return {1, 0.95, 0.85};
+		return {1, 0.99, 0.9};
 	case Optimize::Levels:
 		return {0, 0.95, 0.7};
 	case Optimize::Size:
@@ -44,12 +45,13 @@ Steering steeringFor(Optimize optimize)
 	return {};
 }
 
-/// ScheduleOptions::cellErrors. Where coordinates repeat, exact ones early even save bits.
+/// ScheduleOptions::cellErrors. Coordinates that repeat are cheaper exact from the start than half
+/// known.
 double cellErrorsFor(Optimize optimize, bool repeats)
 {
 	switch (optimize) {
 	case Optimize::Balanced:
-		return repeats ? 2 : 12;
+		return repeats ? 0.25 : 12;
 	case Optimize::Levels:
 		return 2;
 	case Optimize::Size:
@@ -69,6 +71,8 @@ Result<QuantisedMesh> prepare(const MeshData& mesh, const EncodeOptions& options
 	const auto lattice = makeLattice(finite, options.bits, options.step);
 	if (!lattice.ok())
 		return lattice.status();
+	if (Status s = checkAttributes(mesh); !s.ok())
+		return s;
 	auto cut = cutToManifold(mesh.triangles, Index(mesh.positions.size()));
 	if (!cut.ok())
 		return cut.status();
@@ -84,20 +88,21 @@ class Encoder
 {
 public:
 	Encoder(const MeshData& original, const QuantisedMesh& mesh, const EncodeOptions& options) :
-	        original_(original), mesh_(mesh), options_(options)
+	        original_(original), mesh_(mesh), options_(options),
+	        repeats_(repeatsItself(mesh.cut.table, mesh.positions))
 	{
 	}
 
 	Result<EncodedMesh> run()
 	{
 		const bool classic = options_.mode == Mode::Classic || options_.effort == 1;
-		// With Levels no step is left to the geometrical criterion.
-		const bool both = options_.wgc == Wgc::Auto && options_.optimize != Optimize::Levels &&
+		// Balanced wants sharp edges kept in the one step that is left to connectivity; with Levels
+		// there is none.
+		const bool both = options_.wgc == Wgc::Auto && options_.optimize == Optimize::Size &&
 		                  (options_.mode == Mode::Classic || options_.effort == 3);
-		const Stage whole(options_.progress, 0, 1);
-		// Undecided: keeping sharp edges is what Balanced is for.
 		const bool preferred = options_.wgc == Wgc::On || (options_.wgc == Wgc::Auto &&
 		                                                   options_.optimize == Optimize::Balanced);
+		const Stage whole(options_.progress, 0, 1);
 		for (const bool wgc : {false, true}) {
 			if (!both && wgc != preferred)
 				continue;
@@ -124,7 +129,7 @@ private:
 		head.rich     = options_.effort > 1;
 		head.lattice  = mesh_.lattice;
 		head.digest   = digestOf(levels.replay.finest, levels.positions);
-		head.features = featuresFor(options_, mesh_.cut);
+		head.features = featuresFor(options_, original_, mesh_.cut);
 		return head;
 	}
 
@@ -133,9 +138,10 @@ private:
 		Head head    = headOf(levels, Mode::Classic, wgc);
 		head.lifting = options_.mode == Mode::Classic ? options_.lifting : kLiftingOff;
 		std::vector<std::uint8_t> chunks;
+		const Parents parents = parentsFor(head, levels);
 		if (!writeClassic(levels, head, chunks, stage))
 			return false;
-		keepIfSmaller(levels, head, chunks);
+		keepIfSmaller(levels, parents, head, chunks);
 		return true;
 	}
 
@@ -151,7 +157,7 @@ private:
 			        levels, schedule, head, chunks,
 			        stage.part(double(i) * part, double(i + 1) * part)))
 				return false;
-			keepIfSmaller(levels, head, chunks);
+			keepIfSmaller(levels, parentsFor(head, levels), head, chunks);
 		}
 		return true;
 	}
@@ -159,9 +165,8 @@ private:
 	std::vector<ScheduleOptions> schedulesFor(const Levels& levels) const
 	{
 		constexpr int kAll  = ScheduleOptions::kAll;
-		const bool repeats  = repeatsItself(levels.replay.finest, levels.positions);
-		const double errors = cellErrorsFor(options_.optimize, repeats);
-		const int last      = repeats ? kAll : 2;
+		const double errors = cellErrorsFor(options_.optimize, repeats_);
+		const int last      = repeats_ ? kAll : 2;
 		if (options_.effort < 3)
 			return {{8, 2, last, errors}};
 		return {
@@ -172,11 +177,24 @@ private:
 		    {12, 1, last, errors}};
 	}
 
-	void keepIfSmaller(const Levels& levels, Head& head, std::vector<std::uint8_t>& chunks)
+	/// Of all vertices but the base mesh's, if anything asks for them.
+	static Parents parentsFor(const Head& head, const Levels& levels)
+	{
+		Parents all;
+		if (head.has(kAttributes))
+			for (const ReplayedLevel& level : levels.replay.levels) {
+				const Parents some = parentsOf(level.parent, level.refinement);
+				all.insert(all.end(), some.begin(), some.end());
+			}
+		return all;
+	}
+
+	void keepIfSmaller(
+	    const Levels& levels, const Parents& parents, Head& head, std::vector<std::uint8_t>& chunks)
 	{
 		writeFinish(
 		    {original_, mesh_.cut, levels.replay.finest, levels.positions, levels.replay.source,
-		     levels.glue},
+		     levels.glue, parents},
 		    head, chunks);
 		EncodedMesh out;
 		writeHead(head, out.bytes);
@@ -189,6 +207,7 @@ private:
 	const MeshData& original_;
 	const QuantisedMesh& mesh_;
 	const EncodeOptions& options_;
+	bool repeats_; ///< see repeatsItself()
 	EncodedMesh best_;
 };
 

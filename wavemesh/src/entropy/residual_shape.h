@@ -4,6 +4,7 @@
 /// from those seen. Integers only.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -23,15 +24,14 @@ public:
 	/// Mass of the errors below u, 0..kTotal, increasing; bins are even inside.
 	std::int32_t below(std::int64_t u) const
 	{
-		const Place at = locate(u < 0 ? -u : u);
-		if (u >= 0) {
-			const std::int32_t from = cumulative_[kSide + at.bin];
-			const std::int32_t to   = cumulative_[kSide + at.bin + 1];
-			return from + static_cast<std::int32_t>((std::int64_t(to - from) * at.part) >> at.bits);
-		}
-		const std::int32_t to   = cumulative_[kSide - at.bin];
-		const std::int32_t from = cumulative_[kSide - at.bin - 1];
-		return to - static_cast<std::int32_t>((std::int64_t(to - from) * at.part) >> at.bits);
+		// Bins of negative errors mirror those of positive ones: sign is 0, or -1, which turns
+		// bin b into kSide - 1 - b and makes the mass go down from the bin's upper end.
+		const std::int64_t sign   = u < 0 ? -1 : 0;
+		const Place at            = locate((u ^ sign) - sign);
+		const std::int32_t* edges = &cumulative_[kSide];
+		const std::int64_t bin    = std::int64_t(at.bin) ^ sign;
+		const std::int64_t inside = (std::int64_t(edges[bin + 1] - edges[bin]) * at.part) >> kParts;
+		return edges[bin - sign] + static_cast<std::int32_t>((inside ^ sign) - sign);
 	}
 
 	void learn(std::int64_t u);
@@ -46,13 +46,33 @@ private:
 	static constexpr std::uint32_t kLargestSum = 2000 * kIncrement;
 	static constexpr int kLongestWait          = 128;
 
-	/// Bin of |u|, and how far inside, in 2^bits parts.
+	static constexpr int kParts = kOctaves + 4; ///< log2
+
+	/// Bin of |u|, and how far inside, in 2^kParts parts.
 	struct Place
 	{
-		std::size_t bin;
-		std::int64_t part;
-		int bits;
+		std::uint32_t bin, part;
 	};
+	/// How magnitudes with the same leading digit are shifted for a bin to have 2^kParts parts, and
+	/// the bin from which the shifted ones count.
+	struct Octave
+	{
+		std::uint8_t shift, first;
+	};
+	struct Octaves
+	{
+		std::array<Octave, kOctaves + 7> of;
+		constexpr Octaves() : of()
+		{
+			of[6] = {kParts - 3, 0}; // the even bins
+			for (std::size_t digit = 7; digit < of.size(); ++digit)
+				// The first of the octave's four is 4 after shifting.
+				of[digit] = {
+				    static_cast<std::uint8_t>(kParts + 2 - digit),
+				    static_cast<std::uint8_t>(kLinear + 4 * (digit - 7) - 4)};
+		}
+	};
+	static const Octaves kOctave;
 	static Place locate(std::int64_t magnitude);
 	void rebuild();
 
@@ -68,18 +88,14 @@ private:
 
 namespace wavemesh {
 
+inline constexpr ResidualShape::Octaves ResidualShape::kOctave {};
+
 inline ResidualShape::Place ResidualShape::locate(std::int64_t magnitude)
 {
-	if (magnitude < 128)
-		return {static_cast<std::size_t>(magnitude >> 3), magnitude & 7, 3};
-	if (magnitude >= kBeyond)
-		magnitude = kBeyond - 1;
-	const int octave = bitLength(static_cast<std::uint64_t>(magnitude)) - 8;
-	const int bits   = octave + 5;
-	return {
-	    kLinear + 4 * static_cast<std::size_t>(octave) +
-	        static_cast<std::size_t>((magnitude >> bits) & 3),
-	    magnitude & ((std::int64_t(1) << bits) - 1), bits};
+	const auto x                = static_cast<std::uint32_t>(std::min(magnitude, kBeyond - 1));
+	const Octave octave         = kOctave.of[static_cast<std::size_t>(leadingDigit(x | 64))];
+	const std::uint32_t shifted = x << octave.shift;
+	return {octave.first + (shifted >> kParts), shifted & ((std::uint32_t(1) << kParts) - 1)};
 }
 
 } // namespace wavemesh

@@ -31,6 +31,16 @@ inline int bitLength(std::uint64_t x)
 #endif
 }
 
+/// Number of binary digits less one. @pre x > 0
+inline int leadingDigit(std::uint32_t x)
+{
+#if defined(__GNUC__)
+	return 31 - __builtin_clz(x);
+#else
+	return bitLength(x) - 1;
+#endif
+}
+
 /// 4 log2(x), rounded down to a multiple of one with the leading bits for a fraction; 0 for x = 0.
 inline int log2Quarters(std::uint64_t x)
 {

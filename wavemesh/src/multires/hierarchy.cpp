@@ -11,6 +11,8 @@ namespace {
 constexpr Index kSmall = 48;
 /// ErrorCriterion::share where a smaller one leaves too much.
 constexpr double kLenientShare = 0.95;
+/// A free step may make so many times the error of one that is steered.
+constexpr double kFreeError = 3;
 
 bool worthwhile(Index coarse, Index fine)
 {
@@ -87,8 +89,7 @@ Refinement canonical(const CornerTable& parent, const Coarsening& step, std::vec
 }
 
 /// One step by its error; with less choice, and at last without, where that removes too little.
-Coarsening
-steer(
+Coarsening steer(
     const CornerTable& fine,
     const std::vector<LatticePoint>& points,
     const std::vector<std::uint8_t>& kept,
@@ -117,6 +118,17 @@ Coarsening coarsenFreely(
 	return step;
 }
 
+/// Is a free step's error much larger than that of a step by error? Shapes of planes and edges lose
+/// most in a few vertices.
+bool costsTooMuch(
+    const Coarsening& free,
+    const Coarsening& steered,
+    const Quadrics& quadrics,
+    const std::vector<LatticePoint>& points)
+{
+	return quadrics.errorOf(free, points) > kFreeError * quadrics.errorOf(steered, points);
+}
+
 } // namespace
 
 std::vector<Coarsening> coarsenAll(
@@ -132,18 +144,23 @@ std::vector<Coarsening> coarsenAll(
 	std::vector<LatticePoint> points = positions;
 	std::vector<std::uint8_t> stay   = kept;
 	Quadrics quadrics;
-	if (steering.freeSteps != Steering::kNever)
+	const bool steered = steering.freeSteps != Steering::kNever;
+	double share       = steering.firstShare;
+	if (steered)
 		quadrics = Quadrics(table, positions);
 	for (int i = 0;; ++i) {
-		Coarsening next =
-		    i < steering.freeSteps
-		        ? coarsenFreely(*fine, points, criterion, stay)
-		        : steer(
-		              *fine, points, stay,
-		              {&quadrics, i == steering.freeSteps ? steering.firstShare : steering.share});
+		Coarsening next, free;
+		if (i < steering.freeSteps)
+			free = coarsenFreely(*fine, points, criterion, stay);
+		if (steered)
+			next = steer(*fine, points, stay, {&quadrics, share});
+		if (i < steering.freeSteps && (!steered || !costsTooMuch(free, next, quadrics, points)))
+			next = std::move(free);
+		else
+			share = steering.share;
 		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount))
 			break;
-		if (steering.freeSteps != Steering::kNever)
+		if (steered)
 			quadrics.carry(next, points);
 		points = pick(points, next.fineVertex);
 		if (!stay.empty())

@@ -16,10 +16,11 @@ namespace wavemesh {
 struct Steering
 {
 	static constexpr int kNever = std::numeric_limits<int>::max();
-	/// So many of the finest steps are left to connectivity and the geometrical criterion.
+	/// So many of the finest steps are left to connectivity and the geometrical criterion, unless
+	/// the error is much larger then.
 	int freeSteps = kNever;
-	/// ErrorCriterion::share of the first steered step, and of those after it.
-	double firstShare = 0.9, share = 0.75;
+	/// ErrorCriterion::share of the first step that is steered, and of those after it.
+	double firstShare = 0.99, share = 0.9;
 };
 
 /// @param criterion  steers the steps that `steering` does not

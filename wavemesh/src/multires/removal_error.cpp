@@ -39,7 +39,7 @@ RemovalError::RemovalError(
 /// Of all pairs of parents that v could have.
 double RemovalError::least(Index v) const
 {
-	double best  = kInfinite;
+	double best   = kInfinite;
 	const Star& s = state_.star(v);
 	if (s.size > Star::kMax)
 		return best;

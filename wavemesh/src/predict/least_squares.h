@@ -32,15 +32,26 @@ public:
 		return static_cast<std::int32_t>(sum >> 14);
 	}
 
-	/// Adds one observation. @pre |f|, |target| <= kLargest, importance 1..1024; at most three
+	/// Adds observations. @pre |f|, |targets| <= kLargest, importances 1..1024; at most three
 	/// between two calls of endOfVertex()
-	void observe(const Features& f, std::int32_t target, std::int32_t importance)
+	template <std::size_t Count>
+	void observe(
+	    const std::array<Features, Count>& f,
+	    const std::array<std::int32_t, Count>& targets,
+	    const std::array<std::int32_t, Count>& importances)
 	{
 		for (std::size_t i = 0; i < N; ++i) {
-			const std::int64_t scaled = std::int64_t(importance) * f[i];
-			for (std::size_t k = i; k < N; ++k)
-				gram_[i][k] += (scaled * f[k]) >> 6;
-			moment_[i] += (scaled * target) >> 6;
+			std::array<std::int64_t, Count> scaled;
+			for (std::size_t n = 0; n < Count; ++n)
+				scaled[n] = std::int64_t(importances[n]) * f[n][i];
+			for (std::size_t k = i; k < N; ++k) {
+				std::int64_t sum = 0;
+				for (std::size_t n = 0; n < Count; ++n)
+					sum += (scaled[n] * f[n][k]) >> 6;
+				gram_[i][k] += sum;
+			}
+			for (std::size_t n = 0; n < Count; ++n)
+				moment_[i] += (scaled[n] * targets[n]) >> 6;
 		}
 	}
 

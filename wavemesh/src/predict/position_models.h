@@ -36,8 +36,14 @@ enum Repeat : std::uint8_t {
 	kRepeats
 };
 static_assert(std::size_t(kPredictors) + std::size_t(kRepeats) == MixedValue::kMaxOpinions);
+static_assert(std::size_t(kPredictors) == MixedValue::kFewOpinions);
 
 constexpr std::size_t kOffsetFeatures = 7;
+
+/// Errors that are kept: of each predictor along each axis, then across and along the surface.
+constexpr std::size_t kAxisErrors  = 3 * kPredictors;
+constexpr std::size_t kErrorAcross = kAxisErrors, kErrorAlong = kAxisErrors + 1;
+constexpr std::size_t kErrors = kAxisErrors + 2;
 
 /// What is learnt about one kind of coding: the positions of new vertices, or the bits of known
 /// ones.
@@ -46,26 +52,19 @@ struct PositionModels
 	MixedValue value;
 	std::array<std::array<ResidualShape, 3>, kPredictors> shapes; ///< by class of expected error
 	std::array<std::array<std::array<ResidualShape, 4>, 3>, kRepeats> repeats; ///< by axis, context
-	/// Error against the length around, log2 in 1/128, running.
-	std::array<std::array<std::int32_t, 3>, kPredictors> ratio;
-	std::array<std::int32_t, 2> normalRatio; ///< the same across and along the surface
+	/// Errors against the length around, log2 in 1/128, running; in the order of VertexRecord.
+	std::array<std::int32_t, kErrors> ratio;
 	std::array<LeastSquares<kOffsetFeatures>, 4> offset;
 	std::array<LeastSquares<kOffsetFeatures + 2>, 4> height;
 
-	PositionModels()
-	{
-		for (auto& r : ratio)
-			r.fill(-20 * 16);
-		normalRatio.fill(-20 * 16);
-	}
+	PositionModels() { ratio.fill(-20 * 16); }
 };
 
 /// Errors that a vertex had when it was last coded, log2 in eighths, and what else its neighbours
 /// learn from it.
 struct VertexRecord
 {
-	std::array<std::array<std::uint8_t, 3>, kPredictors> error;
-	std::array<std::uint8_t, 2> normalError; ///< across, along the surface
+	std::array<std::uint8_t, kErrors> error; ///< by 3 * predictor + axis; then on the surface
 	bool repeated;                           ///< one of the predictors was right
 	LatticePoint offset; ///< from the middle of the parents, or of the ring; 1/16
 };

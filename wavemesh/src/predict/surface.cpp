@@ -76,15 +76,17 @@ UnitVector normalised(const Vector& n)
 	if (size == 0)
 		return {0, 0, 0};
 	const int length = bitLength(static_cast<std::uint64_t>(size));
-	std::int64_t v[3], squares = 0;
+	std::int32_t v[3]; // at most 2^15 in magnitude
+	std::uint32_t squares = 0;
 	for (std::size_t k = 0; k < 3; ++k) {
-		v[k] = length > 15 ? n[k] >> (length - 15) : n[k] * (1 << (15 - length));
-		squares += v[k] * v[k];
+		v[k] = static_cast<std::int32_t>(
+		    length > 15 ? n[k] >> (length - 15) : n[k] * (1 << (15 - length)));
+		squares += static_cast<std::uint32_t>(v[k] * v[k]);
 	}
-	const std::int64_t root = squareRoot(static_cast<std::uint32_t>(squares));
+	const auto root = static_cast<std::int32_t>(squareRoot(squares));
 	UnitVector out;
 	for (std::size_t k = 0; k < 3; ++k)
-		out[k] = static_cast<std::int32_t>(v[k] * 16384 / root);
+		out[k] = v[k] * 16384 / root;
 	return out;
 }
 

@@ -165,8 +165,8 @@ private:
 		std::int32_t height; ///< normalised
 		std::size_t leastSquaresClass;
 
-		std::array<std::array<int, 3>, kPredictors> scale;
-		int across, along; ///< expected errors, log2 in eighths
+		std::array<int, kAxisErrors> scale; ///< by 3 * predictor + axis
+		int across, along;                  ///< expected errors, log2 in eighths
 	};
 
 	void begin(PositionModels& models, int shift, int bits, std::vector<LatticePoint>& cells)
@@ -176,7 +176,6 @@ private:
 		shift_ = shift;
 		cells_ = &cells;
 		all_.records.resize(table_.vertexCount);
-		m_->value.count = shift == 0 ? MixedValue::kMaxOpinions : std::size_t(kPredictors);
 		if (shift == 0 && fullBits_ <= CompactModels::kCountedBits && !all_.counts[0]) {
 			for (std::size_t k = 0; k < 3; ++k) {
 				all_.counts[k].emplace(std::size_t(1) << fullBits_);
@@ -190,15 +189,26 @@ private:
 	Vector at(Index v) const { return {likely_[v][0], likely_[v][1], likely_[v][2]}; }
 	Vector fromOrigin(const View& view, Index v) const { return at(v) - view.origin; }
 
+	/// 65536 / n for numbers of neighbours.
+	struct Inverses
+	{
+		std::array<std::int32_t, kMostNeighbours + 2> of;
+		constexpr Inverses() : of()
+		{
+			for (std::size_t n = 1; n < of.size(); ++n)
+				of[n] = static_cast<std::int32_t>(65536 / n);
+		}
+	};
+	static constexpr Inverses kInverses {};
+
 	/// x / n, rounded; 0 for n = 0. |x| < 2^40
 	static Vector mean(const Vector& sum, std::size_t n)
 	{
 		Vector out {0, 0, 0};
 		if (n == 0)
 			return out;
-		const std::int64_t inverse = 65536 / static_cast<std::int64_t>(n);
 		for (std::size_t k = 0; k < 3; ++k)
-			out[k] = (sum[k] * inverse + 32768) >> 16;
+			out[k] = (sum[k] * kInverses.of[n] + 32768) >> 16;
 		return out;
 	}
 	static std::uint64_t magnitude(std::int64_t x)
@@ -392,15 +402,11 @@ private:
 
 	Vector middleOfParents(const std::array<Index, 3>& parents) const
 	{
-		Vector sum    = at(parents[0]) + at(parents[1]);
-		std::size_t n = 2;
-		if (parents[2] != kNone) {
-			sum += at(parents[2]);
-			n = 3;
-		}
-		for (std::int64_t& x : sum)
-			x /= static_cast<std::int64_t>(n);
-		return sum;
+		Vector sum = at(parents[0]) + at(parents[1]);
+		if (parents[2] == kNone)
+			return {sum[0] / 2, sum[1] / 2, sum[2] / 2};
+		sum += at(parents[2]);
+		return {sum[0] / 3, sum[1] / 3, sum[2] / 3};
 	}
 
 	/// The edge of a child in the parent level: the vertices across, those beyond, how it bends.
@@ -496,62 +502,72 @@ private:
 	/// Expected errors: mean of the logarithms around, and of what is usual for this length.
 	void expectErrors(View& view) const
 	{
-		const std::int32_t length = log2Eighths(static_cast<std::uint64_t>(view.length));
-		std::array<std::array<std::int32_t, 3>, kPredictors> sum;
-		std::int32_t across = 4 * std::max(0, length + m_->normalRatio[0] / 16);
-		std::int32_t along_ = 4 * std::max(0, length + m_->normalRatio[1] / 16);
-		for (std::size_t i = 0; i < kPredictors; ++i)
-			for (std::size_t k = 0; k < 3; ++k)
-				sum[i][k] = 4 * std::max(0, length + m_->ratio[i][k] / 16);
-		std::int32_t count = 4;
+		std::array<std::uint16_t, kErrors> around {}; // 24 neighbours at most: below 2^13
+		std::size_t count = 1;
 		for (std::size_t j = 0; j < view.size; ++j) {
 			const Index u = view.ring[j];
-			if (u < firstNew_ || !known(u))
-				continue;
-			const VertexRecord& record = all_.records[u];
-			for (std::size_t i = 0; i < kPredictors; ++i)
-				for (std::size_t k = 0; k < 3; ++k)
-					sum[i][k] += 4 * record.error[i][k];
-			across += 4 * record.normalError[0];
-			along_ += 4 * record.normalError[1];
-			count += 4;
+			if (u >= firstNew_ && known(u)) {
+				addErrors(all_.records[u], around);
+				++count;
+			}
 		}
-		const std::int32_t inverse = 65536 / count;
-		for (std::size_t i = 0; i < kPredictors; ++i)
-			for (std::size_t k = 0; k < 3; ++k)
-				view.scale[i][k] = std::min((sum[i][k] * inverse) >> 17, kScaleClasses - 1);
-		view.across = (across * inverse) >> 16;
-		view.along  = (along_ * inverse) >> 16;
+		const std::int32_t length  = log2Eighths(static_cast<std::uint64_t>(view.length));
+		const std::int32_t inverse = kInverses.of[count] / 4;
+		std::array<std::int32_t, kErrors> mean; // times 2^16
+		for (std::size_t i = 0; i < kErrors; ++i)
+			mean[i] = 4 * (std::max(0, length + m_->ratio[i] / 16) + around[i]) * inverse;
+		for (std::size_t i = 0; i < kAxisErrors; ++i)
+			view.scale[i] = std::min(mean[i] >> 17, kScaleClasses - 1);
+		view.across = mean[kErrorAcross] >> 16;
+		view.along  = mean[kErrorAlong] >> 16;
 		if (view.normal == UnitVector {0, 0, 0})
 			view.across = view.along;
+	}
+
+	/// A function, so that the loop is no inner one, which compilers unroll and not vectorise.
+	static void addErrors(const VertexRecord& record, std::array<std::uint16_t, kErrors>& sums)
+	{
+		for (std::size_t i = 0; i < kErrors; ++i)
+			sums[i] = static_cast<std::uint16_t>(sums[i] + record.error[i]);
 	}
 
 	// ---- coordinates --------------------------------------------------------------------------
 
 	/// One coordinate given those before it, for an error that is normally distributed with one
-	/// deviation across the surface and another along it: its mean and deviation.
-	/// @param ratio  log2 of across / along, in eighths
-	void predictOnSurface(
-	    View& view, Predictor which, std::size_t axis, int ratio, const Vector& errors) const
+	/// deviation across the surface and another along it.
+	struct OnSurface
 	{
-		const UnitVector& n  = view.normal;
-		const std::int64_t g = exp2Eighths(std::clamp(2 * ratio, -80, 48)) - 4096;
-		std::int64_t squares = 0, product = 0;
-		for (std::size_t k = 0; k < axis; ++k) {
-			squares += (std::int64_t(n[k]) * n[k]) >> 14;
-			product += (n[k] * errors[k]) >> 14;
-		}
-		const std::int64_t before = std::max<std::int64_t>(4096 + ((g * squares) >> 14), 4);
-		squares += (std::int64_t(n[axis]) * n[axis]) >> 14;
-		const std::int64_t after = std::max<std::int64_t>(4096 + ((g * squares) >> 14), 4);
+		std::int64_t g;             ///< excess of the variance across the surface, 1/4096
+		std::int64_t before = 4096; ///< what is left of the variance by the axes before, 1/4096
+		int logBefore       = 96;   ///< log2 in eighths
+
+		/// @param ratio  log2 of the deviations, across / along, in eighths
+		explicit OnSurface(int ratio) : g(exp2Eighths(std::clamp(2 * ratio, -80, 48)) - 4096) {}
+	};
+
+	/// Mean and deviation of the next coordinate.
+	/// @param squares  of the normal's coordinates, up to this axis
+	/// @param product  of the normal with the errors in the axes before
+	void predictOnSurface(
+	    View& view,
+	    Predictor which,
+	    std::size_t axis,
+	    OnSurface& state,
+	    std::int64_t squares,
+	    std::int64_t product) const
+	{
+		const std::int64_t after = std::max<std::int64_t>(4096 + ((state.g * squares) >> 14), 4);
+		const int logAfter       = log2Eighths(static_cast<std::uint64_t>(after));
 		const std::int64_t most  = kFurthest * 4096;
-		const std::int64_t shift =
-		    std::clamp(((g * n[axis]) >> 14) * product / before, -most, most);
-		view.predicted[which][axis] = view.offset[axis] + unscaled(view, shift);
-		const int deviation     = view.along + ((log2Eighths(static_cast<std::uint64_t>(after)) -
-                                             log2Eighths(static_cast<std::uint64_t>(before))) >>
-                                            1);
-		view.scale[which][axis] = std::clamp(deviation >> 1, 0, kScaleClasses - 1);
+		std::int64_t shift       = 0;
+		if (product != 0)
+			shift = std::clamp(
+			    ((state.g * view.normal[axis]) >> 14) * product / state.before, -most, most);
+		view.predicted[which][axis]  = view.offset[axis] + unscaled(view, shift);
+		const int deviation          = view.along + ((logAfter - state.logBefore) >> 1);
+		view.scale[3 * which + axis] = std::clamp(deviation >> 1, 0, kScaleClasses - 1);
+		state.before                 = after;
+		state.logBefore              = logAfter;
 	}
 
 	/// To the middle of a cell, in 1/16, from the lattice's origin.
@@ -564,19 +580,18 @@ private:
 	{
 		MixedValue& value = m_->value;
 		LatticePoint cell {0, 0, 0};
-		Vector errors {0, 0, 0};                          // of the least squares, scaled
+		OnSurface narrow(view.across - view.along - 14), wide(view.across - view.along);
+		std::int64_t squares = 0, product = 0; // of the normal, and with the errors, scaled
 		std::array<std::int64_t, kSurfaceNarrow> miss {}; // of each predictor, in the axes before
 		for (std::size_t axis = 0; axis < 3; ++axis) {
-			predictOnSurface(view, kSurfaceNarrow, axis, view.across - view.along - 14, errors);
-			predictOnSurface(view, kSurface, axis, view.across - view.along, errors);
+			squares += (std::int64_t(view.normal[axis]) * view.normal[axis]) >> 14;
+			predictOnSurface(view, kSurfaceNarrow, axis, narrow, squares, product);
+			predictOnSurface(view, kSurface, axis, wide, squares, product);
 			for (std::size_t i = 0; i < kPredictors; ++i) {
-				const int scale   = view.scale[i][axis];
-				value.opinions[i] = {
-				    view.origin[axis] + view.predicted[i][axis], scale,
-				    &m_->shapes[i]
-				               [scale < 16   ? 0
-				                : scale < 32 ? 1
-				                             : 2]};
+				const int scale         = view.scale[3 * i + axis];
+				const std::size_t large = scale < 16 ? 0 : scale < 32 ? 1 : 2;
+				value.setOpinion(
+				    i, view.origin[axis] + view.predicted[i][axis], scale, m_->shapes[i][large]);
 			}
 			std::size_t best = 0;
 			for (std::size_t i = 1; i < miss.size(); ++i)
@@ -595,18 +610,20 @@ private:
 			context.a            = contextOfRepeats(view);
 			if (bits_ == 1)
 				context.a = static_cast<std::size_t>(
-				    std::clamp((view.scale[kSurface][axis] - 12) / 4, 0, 7));
+				    std::clamp((view.scale[3 * kSurface + axis] - 12) / 4, 0, 7));
 			context.b =
 			    axis * 4 + (axis == 0 ? std::min<std::size_t>(view.parallelograms, 3) : sure);
 			context.c  = axis * 4 + (view.normal == UnitVector {0, 0, 0} ? 0
 			                         : n < 4915                          ? 1
 			                         : n < 13107                         ? 2
 			                                                             : 3);
-			cell[axis] = codeCoordinate(v, view, axis, context);
+			cell[axis] = shift_ == 0
+			                 ? codeCoordinate<MixedValue::kMaxOpinions>(v, view, axis, context)
+			                 : codeCoordinate<MixedValue::kFewOpinions>(v, view, axis, context);
 			if (coder_.exhausted())
 				return cell;
 			const std::int64_t offset = 16 * std::int64_t(cell[axis]) - view.origin[axis];
-			errors[axis]              = scaled(view, offset - view.offset[axis]);
+			product += (view.normal[axis] * scaled(view, offset - view.offset[axis])) >> 14;
 			for (std::size_t i = 0; i < miss.size(); ++i)
 				miss[i] += static_cast<std::int64_t>(magnitude(offset - view.predicted[i][axis]));
 		}
@@ -673,22 +690,15 @@ private:
 		    sure,
 		    0};
 		for (std::size_t i = 0; i < kRepeats; ++i)
-			m_->value.opinions[kPredictors + i] = {centre[i], 8, &m_->repeats[i][axis][context[i]]};
+			m_->value.setOpinion(kPredictors + i, centre[i], 8, m_->repeats[i][axis][context[i]]);
 	}
 
+	template <std::size_t Opinions>
 	std::int32_t
 	codeCoordinate(Index v, const View& view, std::size_t axis, const MixContext& context)
 	{
 		const ValueCounts* counts =
 		    shift_ == 0 && all_.counts[axis] ? &*all_.counts[axis] : nullptr;
-		const auto odds = [&](std::int64_t low, std::int64_t t, std::int64_t high) -> std::int32_t {
-			if (counts == nullptr)
-				return 0;
-			const std::uint32_t below = counts->below(static_cast<std::uint32_t>(t));
-			return oddsOf(
-			    16 * (counts->below(static_cast<std::uint32_t>(high)) - below) + 6,
-			    16 * (below - counts->below(static_cast<std::uint32_t>(low))) + 6);
-		};
 		std::int32_t wanted = 0;
 		if constexpr (!Coder::kReading)
 			wanted = births_ ? (*cells_)[v][axis] : (*truth_)[v][axis];
@@ -696,27 +706,25 @@ private:
 			const std::int64_t end   = std::int64_t(1) << (fullBits_ - shift_);
 			const std::int64_t guide = std::clamp<std::int64_t>(
 			    (view.origin[axis] + view.offset[axis] + 8) >> 4, 0, end - 1);
-			const int spread = std::max(0, (view.scale[kSurface][axis] - 20) / 4);
-			return static_cast<std::int32_t>(
-			    m_->value.codeAround(coder_, wanted, 0, end, guide, spread, context, odds));
+			const int spread = std::max(0, (view.scale[3 * kSurface + axis] - 20) / 4);
+			return static_cast<std::int32_t>(m_->value.template codeAround<Opinions>(
+			    coder_, wanted, 0, end, guide, spread, context, counts));
 		}
-		return static_cast<std::int32_t>(m_->value.codeWithin(
-		    coder_, wanted, std::int64_t((*cells_)[v][axis]) * (1 << bits_), bits_, context, odds));
+		return static_cast<std::int32_t>(m_->value.template codeWithin<Opinions>(
+		    coder_, wanted, std::int64_t((*cells_)[v][axis]) * (1 << bits_), bits_, context,
+		    counts));
 	}
 
 	// ---- learning -----------------------------------------------------------------------------
 
 	static std::uint8_t logError(std::int64_t e)
 	{
-		return static_cast<std::uint8_t>(std::min(log2Eighths(magnitude(e) + 8), 255));
+		const std::uint64_t x = std::min<std::uint64_t>(magnitude(e) + 8, 0xffffffff);
+		return static_cast<std::uint8_t>(log2OfWord(static_cast<std::uint32_t>(x)) >> 9);
 	}
 
 	void remember(Index v, const View& view, const LatticePoint& cell)
 	{
-		const std::int32_t length = log2Eighths(static_cast<std::uint64_t>(view.length));
-		const auto follow         = [&](std::int32_t& ratio, std::int32_t error) {
-            ratio += ((error - length) * 16 - ratio) / 32;
-		};
 		VertexRecord& record = all_.records[v];
 		Vector offset;
 		for (std::size_t k = 0; k < 3; ++k) {
@@ -724,12 +732,11 @@ private:
 			record.offset[k] = static_cast<std::int32_t>(offset[k] - view.middle[k]);
 		}
 		for (std::size_t i = 0; i < kPredictors; ++i)
-			for (std::size_t k = 0; k < 3; ++k) {
-				record.error[i][k] = logError(offset[k] - view.predicted[i][k]);
-				follow(m_->ratio[i][k], record.error[i][k]);
-			}
+			for (std::size_t k = 0; k < 3; ++k)
+				record.error[3 * i + k] = logError(offset[k] - view.predicted[i][k]);
 		record.repeated = wasRight(view, offset);
-		learnSurface(view, offset, record, follow);
+		surfaceErrors(view, offset, record);
+		learnRatios(view, record);
 		learnLeastSquares(view, offset);
 
 		(*cells_)[v] = cell;
@@ -753,9 +760,7 @@ private:
 		return false;
 	}
 
-	template <class Follow>
-	void
-	learnSurface(const View& view, const Vector& offset, VertexRecord& record, const Follow& follow)
+	static void surfaceErrors(const View& view, const Vector& offset, VertexRecord& record)
 	{
 		const Vector e            = offset - view.offset;
 		const std::int64_t height = along(e, view.normal);
@@ -764,42 +769,46 @@ private:
 			squares += magnitude(x) * magnitude(x);
 		const std::uint64_t across = magnitude(height) * magnitude(height);
 		const std::uint64_t along2 = squares > across ? (squares - across) / 2 : 0;
-		record.normalError[0]      = logError(height);
-		record.normalError[1] =
+		record.error[kErrorAcross] = logError(height);
+		record.error[kErrorAlong] =
 		    static_cast<std::uint8_t>(std::min(log2Eighths(along2 + 64) / 2, 255));
-		if (view.normal != UnitVector {0, 0, 0}) {
-			follow(m_->normalRatio[0], record.normalError[0]);
-			follow(m_->normalRatio[1], record.normalError[1]);
-		}
+	}
+
+	/// Of the surface only where there is one.
+	void learnRatios(const View& view, const VertexRecord& record)
+	{
+		const std::int32_t length = log2Eighths(static_cast<std::uint64_t>(view.length));
+		const std::size_t count   = view.normal == UnitVector {0, 0, 0} ? kAxisErrors : kErrors;
+		for (std::size_t i = 0; i < count; ++i)
+			m_->ratio[i] += ((record.error[i] - length) * 16 - m_->ratio[i]) / 32;
 	}
 
 	/// Observations count less the worse they were predicted, and none more than its rounding
 	/// allows.
 	static std::int32_t importance(const View& view, std::int64_t error)
 	{
-		const std::int64_t e =
-		    std::min<std::int64_t>(static_cast<std::int64_t>(magnitude(error)), 4096);
-		const std::int64_t rounding = 22369621 >> std::min(2 * view.lengthBits, 31);
-		return static_cast<std::int32_t>((1 << 20) / (1024 + (e * e >> 4) + rounding) + 1);
+		const auto e = static_cast<std::int32_t>(std::min<std::uint64_t>(magnitude(error), 4096));
+		const std::int32_t rounding = 22369621 >> std::min(2 * view.lengthBits, 31);
+		return (1 << 20) / (1024 + (e * e >> 4) + rounding) + 1;
 	}
 
 	void learnLeastSquares(const View& view, const Vector& offset)
 	{
 		auto& plain  = m_->offset[view.leastSquaresClass];
 		auto& height = m_->height[view.leastSquaresClass];
-		Vector target;
+		std::array<std::int32_t, 3> target, importances;
 		for (std::size_t k = 0; k < 3; ++k) {
-			target[k] = feature(view, offset[k]);
-			plain.observe(
-			    view.features[k], static_cast<std::int32_t>(target[k]),
-			    importance(view, target[k] - view.plainOffset[k]));
+			target[k]      = feature(view, offset[k]);
+			importances[k] = importance(view, target[k] - view.plainOffset[k]);
 		}
+		plain.observe(view.features, target, importances);
 		plain.endOfVertex();
 		if (view.normal == UnitVector {0, 0, 0})
 			return;
-		const std::int64_t up = std::clamp<std::int64_t>(along(target, view.normal), -8192, 8192);
-		height.observe(
-		    view.heightFeatures, static_cast<std::int32_t>(up), importance(view, up - view.height));
+		const auto up = static_cast<std::int32_t>(std::clamp<std::int64_t>(
+		    along({target[0], target[1], target[2]}, view.normal), -8192, 8192));
+		height.template observe<1>(
+		    {view.heightFeatures}, {up}, {importance(view, up - view.height)});
 		height.endOfVertex();
 	}
 
