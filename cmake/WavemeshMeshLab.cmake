@@ -21,6 +21,8 @@
 
 set(MESHLAB_SOURCE_DIR "" CACHE PATH "MeshLab's source tree, 2022.02 or newer")
 set(MESHLAB_BUILD_DIR "" CACHE PATH "Where MeshLab was built; empty: link against a stub")
+set(WAVEMESH_MESHLAB_SCALAR float CACHE STRING "MeshLab's scalar: float; double for PyMeshLab")
+set_property(CACHE WAVEMESH_MESHLAB_SCALAR PROPERTY STRINGS float double)
 set(WAVEMESH_PLUGIN_DIR ${PROJECT_BINARY_DIR}/plugins)
 
 if(NOT EXISTS ${MESHLAB_SOURCE_DIR}/src/common/plugins/interfaces/io_plugin.h)
@@ -42,7 +44,7 @@ add_library(wavemesh_meshlab_common INTERFACE)
 add_library(MeshLab::common ALIAS wavemesh_meshlab_common)
 target_include_directories(wavemesh_meshlab_common SYSTEM INTERFACE ${MESHLAB_SOURCE_DIR}/src)
 target_compile_definitions(wavemesh_meshlab_common INTERFACE
-	MESHLAB_VERSION=${meshlab_version} MESHLAB_SCALAR=float)
+	MESHLAB_VERSION=${meshlab_version} MESHLAB_SCALAR=${WAVEMESH_MESHLAB_SCALAR})
 target_link_libraries(wavemesh_meshlab_common INTERFACE
 	Wavemesh::vcglib Qt5::Core Qt5::Gui Qt5::Widgets Qt5::OpenGL Qt5::Xml)
 

@@ -74,40 +74,32 @@ std::vector<double> gainsOf(const RichParameterList& list, int finest)
 
 } // namespace
 
-const Multiresolution&
-HierarchyCache::of(const MeshModel& layer, const MultiresolutionOptions& options)
+const DetailPyramid& PyramidCache::of(const MeshModel& layer, Wgc wgc)
 {
 	const std::uint64_t now = fingerprint(layer.cm);
-	if (!levels_ || now != fingerprint_ || options.lifting != lifting_ || options.wgc != wgc_) {
-		levels_.reset();
-		auto made = Multiresolution::of(toMeshData(layer.cm), options);
+	if (!pyramid_ || now != fingerprint_ || wgc != wgc_) {
+		pyramid_.reset();
+		MultiresolutionOptions options;
+		options.wgc = wgc;
+		auto made   = DetailPyramid::of(toMeshData(layer.cm), options);
 		require(made.status(), "Cannot make levels of " + layer.label());
-		levels_      = std::move(*made);
+		pyramid_     = std::move(*made);
 		fingerprint_ = now;
-		lifting_     = options.lifting;
-		wgc_         = options.wgc;
+		wgc_         = wgc;
 	}
-	return *levels_;
+	return *pyramid_;
 }
 
-void addHierarchyParameters(RichParameterList& list)
+static void addCriterionParameter(RichParameterList& list)
 {
 	list.addParam(RichEnum(
 	    "wgc", int(Wgc::On), {"off", "on"}, "Geometrical criterion (WGC)",
 	    "Keep the vertices of sharp edges and corners in the coarse levels.", true));
-	list.addParam(RichEnum(
-	    "lifting", -kLiftingOff, {"off", "0-disc", "1-disc", "2-disc"}, "Lifting",
-	    "Coarse vertices are moved to make the coarse levels smoother and closer to the original, "
-	    "using the details around them. <b>off</b>: coarse vertices are vertices of the original.",
-	    true));
 }
 
-MultiresolutionOptions hierarchyOptions(const RichParameterList& list)
+Wgc criterionOf(const RichParameterList& list)
 {
-	MultiresolutionOptions options;
-	options.wgc     = integerOf(list, "wgc", int(Wgc::On)) == 0 ? Wgc::Off : Wgc::On;
-	options.lifting = kLiftingOff + integerOf(list, "lifting", -kLiftingOff);
-	return options;
+	return integerOf(list, "wgc", int(Wgc::On)) == 0 ? Wgc::Off : Wgc::On;
 }
 
 void addDetailParameters(RichParameterList& list)
@@ -120,17 +112,27 @@ void addDetailParameters(RichParameterList& list)
 	    "<b>normal "
 	    "component</b>: how far it lies outside (above 0) or inside (below 0) of the coarser "
 	    "surface. <b>level of birth</b>: the coarsest level that has it, 0 is the base mesh."));
-	addHierarchyParameters(list);
+	list.addParam(RichEnum(
+	    "lifting", -kLiftingOff, {"off", "0-disc", "1-disc", "2-disc"}, "Lifting",
+	    "Coarse vertices are moved to make the coarse levels smoother and closer to the original, "
+	    "using the details around them. <b>off</b>: coarse vertices are vertices of the original.",
+	    true));
+	addCriterionParameter(list);
 }
 
-std::map<std::string, QVariant>
-colourByDetail(MeshModel& layer, const Multiresolution& levels, const RichParameterList& list)
+std::map<std::string, QVariant> colourByDetail(MeshModel& layer, const RichParameterList& list)
 {
 	const int choice = integerOf(list, "measure", int(DetailMeasure::Length));
 	if (choice < 0 || choice > int(DetailMeasure::Birth))
 		throw MLException("Wavemesh: 'measure' has to be 0 to 2.");
-	const auto measure                 = DetailMeasure(choice);
-	const std::vector<double> measured = measureDetails(levels, positionsOf(layer.cm), measure);
+	const auto measure = DetailMeasure(choice);
+	MultiresolutionOptions options;
+	options.wgc         = criterionOf(list);
+	options.lifting     = kLiftingOff + integerOf(list, "lifting", -kLiftingOff);
+	const MeshData mesh = toMeshData(layer.cm);
+	const auto levels   = Multiresolution::of(mesh, options);
+	require(levels.status(), "Cannot make levels of " + layer.label());
+	const std::vector<double> measured = measureDetails(*levels, mesh.positions, measure);
 
 	layer.updateDataMask(MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR);
 	std::size_t row = 0;
@@ -153,7 +155,7 @@ colourByDetail(MeshModel& layer, const Multiresolution& levels, const RichParame
 	vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(layer.cm, low, high);
 	return {{"min", double(range.first)}, {"max", double(range.second)},
 	        {"mean", sum / double(row)},  {"ramp_low", double(low)},
-	        {"ramp_high", double(high)},  {"finest_level", levels.finestLevel()}};
+	        {"ramp_high", double(high)},  {"finest_level", levels->finestLevel()}};
 }
 
 int bandOf(int level, int finest)
@@ -180,23 +182,24 @@ void addEqualiserParameters(RichParameterList& list, int finest)
 	    "finest two or three; the details of coarser ones may be as short where the surface is "
 	    "merely curved."));
 	list.addParam(RichBool(
-	    "normal_only", false, "Along the normal only",
-	    "Gains act on the part of a detail that is normal to the coarser surface: vertices hardly "
-	    "move along the surface, and large gains do not fold it."));
+	    "normal_only", true, "Along the normal only",
+	    "Gains act on the part of a detail that is normal to the coarser surface, which is its "
+	    "shape: vertices hardly move along the surface. Without this they act on the other part "
+	    "too, which is how the vertices are spread: gains above 1 then fold the surface soon."));
 	list.addParam(RichString(
 	    "gains", "", "Gains by level",
 	    "For single levels: a list such as <i>1, 1, 0.5, 0</i>, from level 1, the coarsest, on, in "
 	    "place of the gains by band. Levels past its end have those.",
 	    true));
-	addHierarchyParameters(list);
+	addCriterionParameter(list);
 }
 
 std::map<std::string, QVariant>
-equaliseDetail(MeshModel& layer, const Multiresolution& levels, const RichParameterList& list)
+equaliseDetail(MeshModel& layer, const DetailPyramid& pyramid, const RichParameterList& list)
 {
 	Equaliser equaliser;
-	equaliser.gains           = gainsOf(list, levels.finestLevel());
-	equaliser.normalOnly      = flagOf(list, "normal_only", false);
+	equaliser.gains           = gainsOf(list, pyramid.finestLevel());
+	equaliser.normalOnly      = flagOf(list, "normal_only", true);
 	equaliser.thresholdLevels = integerOf(list, "threshold_levels", kThresholdLevels);
 	const double percent      = numberOf(list, "threshold", 0);
 	if (!(percent >= 0))
@@ -207,7 +210,7 @@ equaliseDetail(MeshModel& layer, const Multiresolution& levels, const RichParame
 		if (!v.IsD())
 			box.Add(v.cP());
 	equaliser.threshold           = percent / 100 * double(box.Diag());
-	const std::vector<Vec3> after = equalise(levels, before, equaliser);
+	const std::vector<Vec3> after = pyramid.equalise(equaliser);
 
 	std::size_t row = 0;
 	int moved       = 0;
@@ -226,7 +229,7 @@ equaliseDetail(MeshModel& layer, const Multiresolution& levels, const RichParame
 	}
 	if (moved > 0)
 		layer.updateBoxAndNormals();
-	return {{"moved", moved}, {"largest_move", farthest}, {"finest_level", levels.finestLevel()}};
+	return {{"moved", moved}, {"largest_move", farthest}, {"finest_level", pyramid.finestLevel()}};
 }
 
 } // namespace wavemesh

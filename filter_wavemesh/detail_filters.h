@@ -4,7 +4,7 @@
 /// parameters, and what they do to the layer.
 #pragma once
 
-#include <wavemesh/multiresolution.h>
+#include <wavemesh/detail_pyramid.h>
 
 #include <common/ml_document/mesh_model.h>
 #include <common/parameters/rich_parameter_list.h>
@@ -18,30 +18,27 @@
 
 namespace wavemesh {
 
-/// The hierarchy of the mesh that was decomposed last: live preview decomposes a mesh once.
-class HierarchyCache
+/// The details of the mesh that was decomposed last: live preview decomposes a mesh once.
+class PyramidCache
 {
 public:
 	/// @throws MLException if the mesh has no hierarchy (it is no manifold, ...)
-	const Multiresolution& of(const MeshModel& layer, const MultiresolutionOptions& options);
+	const DetailPyramid& of(const MeshModel& layer, Wgc wgc);
 
 private:
 	std::uint64_t fingerprint_ = 0;
-	int lifting_               = 0;
 	Wgc wgc_                   = Wgc::On;
-	std::optional<Multiresolution> levels_;
+	std::optional<DetailPyramid> pyramid_;
 };
 
-/// How the hierarchy of both filters is made: WGC and lifting.
-void addHierarchyParameters(RichParameterList& list);
-MultiresolutionOptions hierarchyOptions(const RichParameterList& list);
+/// What a parameter list says of the geometrical criterion: off or on.
+Wgc criterionOf(const RichParameterList& list);
 
 void addDetailParameters(RichParameterList& list);
 
 /// Gives every vertex its detail as quality and colours it by that, in MeshLab's own ramp.
 /// @return minimum, maximum and mean of the quality, the range of the ramp, the number of levels
-std::map<std::string, QVariant>
-colourByDetail(MeshModel& layer, const Multiresolution& levels, const RichParameterList& list);
+std::map<std::string, QVariant> colourByDetail(MeshModel& layer, const RichParameterList& list);
 
 /// Five bands of levels.
 constexpr int kBands = 5;
@@ -57,6 +54,6 @@ void addEqualiserParameters(RichParameterList& list, int finest);
 /// not touched.
 /// @return the number of vertices moved and the largest displacement (model units)
 std::map<std::string, QVariant>
-equaliseDetail(MeshModel& layer, const Multiresolution& levels, const RichParameterList& list);
+equaliseDetail(MeshModel& layer, const DetailPyramid& pyramid, const RichParameterList& list);
 
 } // namespace wavemesh

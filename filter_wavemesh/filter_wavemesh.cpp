@@ -27,8 +27,10 @@ namespace {
 EncodeOptions browsingOptions()
 {
 	EncodeOptions options;
-	options.bits = 16;
-	options.wgc  = Wgc::On;
+	options.mode     = Mode::Classic;
+	options.bits     = 16;
+	options.optimize = Optimize::Levels;
+	options.effort   = 1;
 	return options;
 }
 
@@ -218,8 +220,7 @@ std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
 			return report(layer, parameters, cb);
 		case FP_COLOUR:
 			postConditionMask = MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR;
-			return colourByDetail(
-			    layer, hierarchy_.of(layer, hierarchyOptions(parameters)), parameters);
+			return colourByDetail(layer, parameters);
 		case FP_EQUALISE:
 			return equalise(layer, parameters, postConditionMask);
 		default:
@@ -299,8 +300,8 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::equalise(
     MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask)
 {
 	// No progress bar, as when browsing: the sliders are alive.
-	const Multiresolution& levels = hierarchy_.of(layer, hierarchyOptions(parameters));
-	const Results results         = equaliseDetail(layer, levels, parameters);
+	const DetailPyramid& pyramid = pyramid_.of(layer, criterionOf(parameters));
+	const Results results        = equaliseDetail(layer, pyramid, parameters);
 	postConditionMask =
 	    MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL;
 	log(QString("Moved %1 of %2 vertices, by up to %3.")
@@ -382,7 +383,7 @@ int FilterWavemeshPlugin::finestDetailLevel(const MeshModel& layer)
 {
 	const WaitCursor waiting;
 	try {
-		return hierarchy_.of(layer, {}).finestLevel();
+		return pyramid_.of(layer, Wgc::On).finestLevel();
 	}
 	catch (const std::exception&) {
 		return 0; // as above

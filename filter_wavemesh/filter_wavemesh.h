@@ -72,6 +72,6 @@ private:
 		wavemesh::SharedBytes stream;
 	};
 	Encoded encoded_;
-	wavemesh::HierarchyCache hierarchy_;
+	wavemesh::PyramidCache pyramid_;
 	QString card_; ///< what the dialog of Browse Levels shows
 };

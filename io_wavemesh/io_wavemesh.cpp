@@ -12,7 +12,6 @@
 #include <QFileInfo>
 
 #include <limits>
-#include <optional>
 
 using namespace wavemesh;
 
@@ -59,25 +58,6 @@ void fillLayer(MeshModel& layer, const MeshData& mesh, int level, SharedBytes st
 {
 	exchangeMesh(layer, makeMesh(mesh));
 	keepStream(layer.cm, {std::move(stream), level, fingerprint(layer.cm)});
-}
-
-/// Encodes in each of the ways; the smallest file, or the first failure.
-Result<EncodedMesh> encodeSmallest(
-    const MeshData& mesh, const std::vector<EncodeOptions>& ways, const Progress& progress)
-{
-	std::optional<EncodedMesh> best;
-	const double share = 1.0 / double(ways.size());
-	for (std::size_t i = 0; i < ways.size(); ++i) {
-		EncodeOptions options = ways[i];
-		if (progress)
-			options.progress = [&](double part) { return progress(share * (double(i) + part)); };
-		auto encoded = encode(mesh, options);
-		if (!encoded.ok())
-			return encoded.status();
-		if (!best || encoded->bytes.size() < best->bytes.size())
-			best = std::move(*encoded);
-	}
-	return std::move(*best);
 }
 
 /// "18 432 bytes" and the like.
@@ -261,6 +241,7 @@ IOWavemeshPlugin::initSaveParameter(const QString& format, const MeshModel& laye
 	}
 	list.addParam(RichEnum("preset", int(Preset::Custom), presetNames(), "Preset", presetHelp()));
 	addEncodeParameters(list, defaults);
+	addPromiseParameters(list);
 	return list;
 }
 
@@ -275,15 +256,15 @@ void IOWavemeshPlugin::save(
 	guarded([&] {
 		if (format.toUpper() != kExtension)
 			wrongSaveFormat(format);
-		const EncodeOptions options = encodeOptions(parameters, {});
-		const int preset            = integerOf(parameters, "preset", int(Preset::Custom));
+		EncodeOptions options = encodeOptions(parameters, {});
+		const int preset      = integerOf(parameters, "preset", int(Preset::Custom));
 		if (preset < 0 || preset > int(Preset::Exact))
 			throw MLException("Wavemesh: 'preset' has to be 0 to 4.");
+		options = optionsOf(Preset(preset), options);
 
 		const Stopwatch watch;
-		const auto encoded = encodeSmallest(
-		    toMeshData(layer.cm), optionsOf(Preset(preset), options),
-		    progressBar(cb, "Encoding..."));
+		options.progress   = progressBar(cb, "Encoding...");
+		const auto encoded = encode(toMeshData(layer.cm), options);
 		require(encoded.status(), "Cannot save " + fileName);
 		writeFile(fileName, encoded->bytes);
 

@@ -5,6 +5,19 @@
 
 namespace wavemesh {
 
+void addPromiseParameters(RichParameterList& list)
+{
+	list.addParam(RichBool(
+	    "exact", false, "Exact coordinates",
+	    "Keep every coordinate bit for bit, not only its place on the lattice; larger by what the "
+	    "lattice leaves out."));
+	list.addParam(RichBool(
+	    "keep_order", false, "Keep the order",
+	    "Keep the order of vertices and faces; larger by about the logarithm of their number for "
+	    "each.",
+	    true));
+}
+
 void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults, bool hidePrecision)
 {
 	list.addParam(RichInt(
@@ -24,7 +37,8 @@ void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults,
 	    "mechanical parts. <b>auto</b>: encode both ways and keep the smaller."));
 	list.addParam(RichEnum(
 	    "lifting", defaults.lifting - kLiftingOff, {"off", "0-disc", "1-disc", "2-disc"}, "Lifting",
-	    "Classic: coarse vertices are moved to make the coarse levels smoother and closer to the original, "
+	    "Classic: coarse vertices are moved to make the coarse levels smoother and closer to the "
+	    "original, "
 	    "using the details around them. <b>off</b>: coarse vertices are vertices of the original. "
 	    "<b>k-disc</b>: how far around a vertex the details are gathered."));
 	list.addParam(RichEnum(
@@ -32,6 +46,12 @@ void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults,
 	    "<b>compact</b>: positions get more precise as the mesh gets denser; the smaller file. "
 	    "<b>classic</b>: the method of the paper: every level is one subdivision step at full "
 	    "precision, with lifting if asked for."));
+	list.addParam(RichEnum(
+	    "optimize", int(defaults.optimize), {"size", "balanced", "levels"}, "Optimize for",
+	    "<b>size</b>: the fewest bytes, coarse levels as they come. <b>balanced</b>: coarse levels "
+	    "close to the original, for about 2 % more bytes. <b>levels</b>: the closest at any low "
+	    "rate.",
+	    hidePrecision));
 	list.addParam(RichInt(
 	    "effort", defaults.effort, "Effort (1 to 3)",
 	    "Compact: 1 is the fastest to save and to open; 2 chooses by a look at the mesh; 3 tries "
@@ -62,10 +82,14 @@ EncodeOptions encodeOptions(const RichParameterList& list, const EncodeOptions& 
 	options.bits          = integerOf(list, "bits", defaults.bits);
 	options.step          = numberOf(list, "step", defaults.step);
 	options.mode          = Mode(choiceOf(list, "mode", int(defaults.mode), int(Mode::Compact)));
-	options.effort        = integerOf(list, "effort", defaults.effort);
-	options.wgc           = Wgc(choiceOf(list, "wgc", int(defaults.wgc), int(Wgc::Auto)));
+	options.optimize =
+	    Optimize(choiceOf(list, "optimize", int(defaults.optimize), int(Optimize::Levels)));
+	options.effort = integerOf(list, "effort", defaults.effort);
+	options.wgc    = Wgc(choiceOf(list, "wgc", int(defaults.wgc), int(Wgc::Auto)));
 	options.lifting =
 	    kLiftingOff + choiceOf(list, "lifting", defaults.lifting - kLiftingOff, 2 - kLiftingOff);
+	options.exact        = flagOf(list, "exact", defaults.exact);
+	options.keepOrder    = flagOf(list, "keep_order", defaults.keepOrder);
 	options.wgcSharpness = numberOf(list, "wgc_sharpness", defaults.wgcSharpness);
 	options.wgcDeviation = numberOf(list, "wgc_deviation", defaults.wgcDeviation);
 	return options;

@@ -14,7 +14,10 @@ namespace wavemesh {
 void addEncodeParameters(
     RichParameterList& list, const EncodeOptions& defaults, bool hidePrecision = false);
 
-/// Reads them back; what a script leaves out keeps the value of `defaults`.
+/// Appends what a file may promise besides its lattice: exact coordinates, the order.
+void addPromiseParameters(RichParameterList& list);
+
+/// Reads them back, the promises too; what a script leaves out keeps the value of `defaults`.
 /// @throws MLException naming the parameter that is out of range
 EncodeOptions encodeOptions(const RichParameterList& list, const EncodeOptions& defaults);
 

@@ -12,53 +12,39 @@ QString presetHelp()
 {
 	return "<b>as set below</b>: the options below count. The others set all of them but the "
 	       "precision:<br>"
-	       "<b>smallest</b>: the fewest bytes for the whole mesh, whatever the coarse levels are "
-	       "like; "
-	       "encodes in several ways, which takes three times as long.<br>"
-	       "<b>balanced</b>: smooth coarse levels, and within about 2 % of the smallest size.<br>"
-	       "<b>best coarse levels</b>: coarse levels are closest to the original and keep sharp "
-	       "edges; "
-	       "on smooth shapes up to 3 % larger.<br>"
-	       "<b>exact</b>: the finest lattice there is, 24 bits per coordinate: no coordinate moves "
-	       "by "
-	       "more than 1/33 000 000 of the extent; about three times as large as 12 bits.";
+	       "<b>smallest</b>: the fewest bytes for the whole mesh; tries several ways, which takes "
+	       "five times as long.<br>"
+	       "<b>balanced</b>: coarse levels close to the original, for 3 to 5 % more bytes.<br>"
+	       "<b>best coarse levels</b>: the closest coarse levels at any low rate, for 15 to 30 % "
+	       "more bytes.<br>"
+	       "<b>exact</b>: balanced, and every coordinate bit for bit, not only its place on the "
+	       "lattice: three to four times as large.";
 }
 
-std::vector<EncodeOptions> optionsOf(Preset preset, EncodeOptions options)
+EncodeOptions optionsOf(Preset preset, EncodeOptions options)
 {
 	if (preset == Preset::Custom)
-		return {options};
-	const EncodeOptions defaults;
-	options.mode         = defaults.mode;
-	options.wgcSharpness = defaults.wgcSharpness;
-	options.wgcDeviation = defaults.wgcDeviation;
-	std::vector<EncodeOptions> all;
+		return options;
+	EncodeOptions chosen;
+	chosen.bits      = options.bits;
+	chosen.step      = options.step;
+	chosen.keepOrder = options.keepOrder;
 	switch (preset) {
 	case Preset::Custom:
+	case Preset::Balanced:
 		break;
 	case Preset::Smallest:
-		options.wgc = Wgc::Auto;
-		for (const int lifting : {kLiftingOff, 0, 2}) {
-			options.lifting = lifting;
-			all.push_back(options);
-		}
-		return all;
-	case Preset::Balanced:
-		options.lifting = 0;
-		options.wgc     = Wgc::Auto;
+		chosen.optimize = Optimize::Size;
+		chosen.effort   = 3;
 		break;
 	case Preset::BestCoarseLevels:
-		options.lifting = 0;
-		options.wgc     = Wgc::On;
+		chosen.optimize = Optimize::Levels;
 		break;
 	case Preset::Exact:
-		options.lifting = kLiftingOff;
-		options.wgc     = Wgc::Auto;
-		options.step    = 0;
-		options.bits    = 24;
+		chosen.exact = true;
 		break;
 	}
-	return {options};
+	return chosen;
 }
 
 } // namespace wavemesh

@@ -8,8 +8,6 @@
 #include <QString>
 #include <QStringList>
 
-#include <vector>
-
 namespace wavemesh {
 
 enum class Preset { Custom, Smallest, Balanced, BestCoarseLevels, Exact };
@@ -20,8 +18,8 @@ QStringList presetNames();
 /// What each of them does, what it is for, and what it costs: HTML.
 QString presetHelp();
 
-/// The options that the preset stands for; of several, the ones that give the smallest file are
-/// meant. Precision (bits or step) stays as it is but for Exact; Custom changes nothing.
-std::vector<EncodeOptions> optionsOf(Preset preset, EncodeOptions options);
+/// The options that the preset stands for. Precision (bits or step) and order stay as they are;
+/// Custom changes nothing.
+EncodeOptions optionsOf(Preset preset, EncodeOptions options);
 
 } // namespace wavemesh

@@ -196,24 +196,86 @@ TEST(FilterWavemesh, AScriptMayLeaveOutEveryParameter)
 	}
 }
 
-TEST(FilterWavemesh, AMeshThatIsNoManifoldGivesAnErrorAndStaysAsItWas)
+TEST(FilterWavemesh, AMeshThatIsNoManifoldIsBrowsedAndSavedAndHasNoDetails)
 {
 	// Three faces on one edge.
 	writeFile(
 	    scratch("fin.off"), "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n"
 	                        "3 0 1 2\n3 1 0 3\n3 0 1 4\n");
-	for (const char* filter :
-	     {"Simplification: Wavemesh", "Wavemesh: Browse Levels", "Wavemesh: Layers from Levels"}) {
-		SCOPED_TRACE(filter);
-		MeshLabHost& host = freshHost();
-		host.open(scratch("fin.off"));
-		const Shape before(host.mesh());
-		EXPECT_NE(messageOf([&] { host.apply(filter); }), QString());
-		EXPECT_EQ(host.document().meshNumber(), 1u);
-		EXPECT_TRUE(Shape(host.mesh()) == before);
-	}
 	MeshLabHost& host = freshHost();
 	host.open(scratch("fin.off"));
-	EXPECT_NE(messageOf([&] { host.save(scratch("fin.wmc")); }), QString());
-	EXPECT_FALSE(QFile::exists(scratch("fin.wmc"))) << "a file appears whole or not at all";
+	const Shape before(host.mesh());
+	for (const char* filter : {"Wavemesh: Colour by Detail", "Wavemesh: Equalise Detail"}) {
+		EXPECT_NE(messageOf([&] { host.apply(filter); }), QString()) << filter;
+		EXPECT_TRUE(Shape(host.mesh()) == before);
+	}
+	browse(host, 0);
+	browse(host, -1);
+	EXPECT_TRUE(Shape(host.mesh()) == before);
+	host.save(scratch("fin.wmc"));
+	const MeshModel& back = *host.open(scratch("fin.wmc")).front();
+	EXPECT_EQ(back.cm.vn, 5);
+	EXPECT_EQ(back.cm.fn, 3);
+}
+
+TEST(FilterWavemesh, AMeshThatCannotBeEncodedGivesAnErrorAndStaysAsItWas)
+{
+	writeFile(scratch("points.off"), "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
+	for (const char* filter :
+	     {"Simplification: Wavemesh", "Wavemesh: Browse Levels", "Wavemesh: Layers from Levels",
+	      "Wavemesh: Rate-Distortion Report", "Wavemesh: Colour by Detail",
+	      "Wavemesh: Equalise Detail"}) {
+		SCOPED_TRACE(filter);
+		MeshLabHost& host = freshHost();
+		host.open(scratch("points.off"));
+		EXPECT_NE(messageOf([&] { host.apply(filter); }), QString());
+		EXPECT_EQ(host.document().meshNumber(), 1u);
+		EXPECT_EQ(host.mesh().cm.vn, 3);
+	}
+}
+
+TEST(FilterWavemesh, TheSliderSnapsByBytesAndByError)
+{
+	MeshLabHost& host = freshHost();
+	host.open(sample("pretzel.ply"));
+	const auto all = [&](const MeshLabHost::Settings& settings) {
+		return host.apply("Wavemesh: Browse Levels", settings);
+	};
+	const auto base  = all({{"level", "0"}, {"snap", "1"}});
+	const int finest = base.at("finest_level").toInt();
+	EXPECT_EQ(base.at("level").toInt(), 0);
+	for (const char* snap : {"0", "1", "2"}) {
+		SCOPED_TRACE(snap);
+		int last = -1;
+		for (int step = 0; step <= 4 * finest; ++step) {
+			const auto shown = all({{"level", QString::number(step / 4.)}, {"snap", snap}});
+			EXPECT_GE(shown.at("level").toInt(), last) << "to the right is finer";
+			last = shown.at("level").toInt();
+		}
+		EXPECT_EQ(last, finest);
+	}
+	const auto small = all({{"snap", "1"}, {"max_bytes", "3000"}});
+	EXPECT_LE(small.at("bytes").toInt(), 3000);
+	const double error = small.at("error").toDouble();
+	const auto close   = all({{"snap", "2"}, {"max_error", QString::number(error * 1.001)}});
+	EXPECT_LE(close.at("error").toDouble(), error * 1.001);
+	EXPECT_LE(close.at("level").toInt(), small.at("level").toInt()) << "the coarsest that does";
+}
+
+TEST(FilterWavemesh, ColoursAndSelectionsStayWithTheLevelTheyWereMadeOn)
+{
+	MeshLabHost& host = freshHost();
+	MeshModel& layer  = *host.open(sample("blob.ply")).front();
+	browse(host, 2);
+	layer.updateDataMask(MeshModel::MM_VERTCOLOR);
+	for (auto& v : layer.cm.vert)
+		v.C() = vcg::Color4b(10, 20, 30, 255);
+	layer.cm.vert[0].SetS();
+	browse(host, -1);
+	EXPECT_FALSE(layer.cm.vert[0].IsS());
+	EXPECT_FALSE(layer.hasDataMask(MeshModel::MM_VERTCOLOR));
+	browse(host, 2);
+	EXPECT_TRUE(layer.cm.vert[0].IsS());
+	EXPECT_TRUE(layer.hasDataMask(MeshModel::MM_VERTCOLOR));
+	EXPECT_EQ(layer.cm.vert[1].cC(), vcg::Color4b(10, 20, 30, 255));
 }

@@ -9,7 +9,10 @@
 #include <QFile>
 #include <QFileInfo>
 
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <set>
 
 using namespace wavemesh;
 using namespace wavemesh::test;
@@ -170,24 +173,63 @@ TEST(IoWavemesh, SavingWithFewerBitsGivesASmallerFile)
 	EXPECT_LT(contents(scratch("coarse.wmc")).size(), saved.bytes.size());
 }
 
-TEST(IoWavemesh, APresetSetsLiftingAndCriterionAndExactIsTheFinestLattice)
+TEST(IoWavemesh, APresetSetsWhatItIsAboutAndKeepsThePrecision)
 {
 	MeshLabHost& host = freshHost();
-	host.open(sample("pretzel.ply"));
+	host.open(sample("pebble.ply"));
 	const auto saved = [&](const char* preset) {
-		host.save(scratch("preset.wmc"), {{"preset", preset}, {"bits", "11"}, {"lifting", "3"}});
+		host.save(
+		    scratch("preset.wmc"),
+		    {{"preset", preset}, {"bits", "11"}, {"mode", "0"}, {"lifting", "3"}});
 		const QByteArray bytes = contents(scratch("preset.wmc"));
 		return *readInfo(
 		    reinterpret_cast<const std::uint8_t*>(bytes.constData()), std::size_t(bytes.size()));
 	};
 	EXPECT_EQ(saved("0").lifting, 2) << "as set below";
-	EXPECT_EQ(saved("2").lifting, 0);
-	EXPECT_EQ(saved("1").bits, 11);
+	EXPECT_EQ(saved("0").mode, Mode::Classic);
+	for (const char* preset : {"1", "2", "3", "4"}) {
+		SCOPED_TRACE(preset);
+		const StreamInfo info = saved(preset);
+		EXPECT_EQ(info.lifting, kLiftingOff);
+		EXPECT_EQ(info.bits, 11);
+		EXPECT_EQ(info.features.exact, preset[0] == '4');
+	}
 	EXPECT_LE(saved("1").bytes, saved("2").bytes);
-	EXPECT_TRUE(saved("3").wgc);
-	EXPECT_EQ(saved("4").bits, 24);
-	EXPECT_LE(saved("1").bytes, saved("0").bytes);
 	EXPECT_NE(messageOf([&] { host.save(scratch("preset.wmc"), {{"preset", "9"}}); }), QString());
+}
+
+TEST(IoWavemesh, ExactCoordinatesComeBackBitForBit)
+{
+	const auto coordinates = [](const MeshModel& m) {
+		std::multiset<std::array<std::uint32_t, 3>> all;
+		for (const auto& v : m.cm.vert) {
+			std::array<std::uint32_t, 3> bits;
+			std::memcpy(bits.data(), v.cP().V(), sizeof bits);
+			all.insert(bits);
+		}
+		return all;
+	};
+	MeshLabHost& host     = freshHost();
+	const MeshModel& from = *host.open(sample("island.ply")).front();
+	host.save(scratch("exact.wmc"), {{"exact", "true"}, {"bits", "9"}});
+	EXPECT_TRUE(coordinates(*host.open(scratch("exact.wmc")).front()) == coordinates(from));
+}
+
+TEST(IoWavemesh, TheOrderOfVerticesAndFacesComesBackIfAsked)
+{
+	MeshLabHost& host     = freshHost();
+	const MeshModel& from = *host.open(sample("island.ply")).front();
+	host.save(scratch("order.wmc"), {{"exact", "true"}, {"keep_order", "true"}});
+	const MeshModel& back = *host.open(scratch("order.wmc")).front();
+	ASSERT_EQ(back.cm.vn, from.cm.vn);
+	ASSERT_EQ(back.cm.fn, from.cm.fn);
+	for (std::size_t v = 0; v < from.cm.vert.size(); ++v)
+		ASSERT_EQ(back.cm.vert[v].cP(), from.cm.vert[v].cP()) << v;
+	for (std::size_t f = 0; f < from.cm.face.size(); ++f)
+		for (int k = 0; k < 3; ++k)
+			ASSERT_EQ(
+			    vcg::tri::Index(back.cm, back.cm.face[f].cV(k)),
+			    vcg::tri::Index(from.cm, from.cm.face[f].cV(k)));
 }
 
 TEST(IoWavemesh, AProjectComesBackWithEveryLevelAsALayer)

@@ -50,7 +50,7 @@ TEST(WavemeshReport, AgreesWithMeshLabsHausdorffDistance)
 	const QString csv      = results.at("csv").toString();
 	const double diagonal  = results.at("diagonal").toDouble();
 	EXPECT_NEAR(diagonal, double(layer.cm.bbox.Diag()), 1e-5 * diagonal);
-	host.save(scratch("I.wmc"), {{"lifting", "0"}, {"wgc", "0"}});
+	host.save(scratch("I.wmc"), {{"mode", "0"}, {"optimize", "0"}, {"lifting", "0"}, {"wgc", "0"}});
 	for (int level : {0, 2, 4}) {
 		SCOPED_TRACE(level);
 		const MeshModel& m =
@@ -85,7 +85,9 @@ TEST(WavemeshReport, CountsTheBytesOfTheFilesThatAreSaved)
 		const char *key, *lifting;
 	} files[] = {{"i_bytes", "0"}, {"ii_bytes", "1"}};
 	for (const auto& file : files) {
-		host.save(scratch("vase.wmc"), {{"lifting", file.lifting}, {"wgc", "0"}});
+		host.save(
+		    scratch("vase.wmc"),
+		    {{"mode", "0"}, {"optimize", "0"}, {"lifting", file.lifting}, {"wgc", "0"}});
 		EXPECT_EQ(results.at(file.key).toLongLong(), QFileInfo(scratch("vase.wmc")).size());
 	}
 }
@@ -103,7 +105,8 @@ TEST(WavemeshReport, OfALayerFromAFileIsThatFiles)
 		    kReport, {{"samples", "1000"},
 		              {"config_i", "false"},
 		              {"config_ii", "false"},
-		              {"config_iii", "false"}});
+		              {"config_iii", "false"},
+		              {"config_compact", "false"}});
 		EXPECT_EQ(results.at("own_wmc_bytes").toLongLong(), size);
 		EXPECT_LT(results.at("own_wmc_finest_rms").toDouble(), 1e-6)
 		    << "it is its own finest level";
@@ -169,7 +172,8 @@ TEST(WavemeshReport, SaysWhatIsWrongWithTheFilesNamed)
 		        kReport, {{"own", "false"},
 		                  {"config_i", "false"},
 		                  {"config_ii", "false"},
-		                  {"config_iii", "false"}});
+		                  {"config_iii", "false"},
+		                  {"config_compact", "false"}});
 	    }),
 	    QString());
 }

@@ -58,6 +58,35 @@ TEST_F(WmcTest, NoChangedByteGivesAMeshSilently)
 	}
 }
 
+TEST_F(WmcTest, PointCloudsComeBack)
+{
+	MeshData points = makeTwoTriangles();
+	points.triangles.clear();
+	writeObj(path("points.obj"), points);
+	EXPECT_EQ(runWmc({"encode", path("points.obj"), path("points.wmc"), "--exact"}).code, 0);
+	EXPECT_EQ(runWmc({"verify", path("points.obj"), path("points.wmc")}).code, 0);
+	EXPECT_EQ(runWmc({"decode", path("points.wmc"), path("back.ply")}).code, 0);
+	expectRefused(runWmc({"report", path("points.obj")}), "no distance to points");
+}
+
+TEST_F(WmcTest, VerifyChecksOrderAndExactNumbersWhereTheyArePromised)
+{
+	const MeshData mesh = makeBumpySphere(60, 3);
+	writeObj(path("a.obj"), mesh);
+	const std::string wmc = path("a.wmc");
+	ASSERT_EQ(runWmc({"encode", path("a.obj"), wmc, "--keep-order", "--exact"}).code, 0);
+	const RunResult good = runWmc({"verify", path("a.obj"), wmc});
+	EXPECT_EQ(good.code, 0) << good.err;
+	EXPECT_NE(good.out.find("float-lossless"), std::string::npos);
+	EXPECT_NE(good.out.find("order-preserving"), std::string::npos);
+	writeObj(path("b.obj"), shuffled(mesh, 4));
+	EXPECT_EQ(runWmc({"verify", path("b.obj"), wmc}).code, 1) << "another order";
+	MeshData moved = mesh;
+	moved.positions[7][1] += 1e-9;
+	writeObj(path("c.obj"), moved);
+	EXPECT_EQ(runWmc({"verify", path("c.obj"), wmc}).code, 1) << "another number";
+}
+
 TEST_F(WmcTest, MeshesThatAreNoManifoldComeBack)
 {
 	const MeshData two = makeTwoTriangles();

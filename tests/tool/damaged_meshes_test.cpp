@@ -34,7 +34,6 @@ TEST_F(WmcTest, DamagedMeshFilesAreRefusedInOneLine)
 	    {"hidden.obj", "v 0 0 0\nv 1 0 0\n# \\\nv 0 1 0\nf 1 2 3\n"},
 	    {"coordinate.obj", "v 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
 	    {"nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
-	    {"faceless.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"},
 	    {"index.off", "OFF\n3 1 0\n" + points + "3 0 1 3\n"},
 	    {"short.off", "OFF\n3 1 0\n" + points},
 	    {"huge.off", "OFF\n2000000000 1 0\n" + points},

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The hierarchy in the mesh's own numbering, and what filters do with it.
 #include "mesh_families.h"
-#include "rng.h"
 
 #include <wavemesh/multiresolution.h>
 
@@ -9,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace wavemesh::test {
 namespace {
@@ -35,11 +33,6 @@ double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 	return most;
 }
 
-bool sameBits(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
-{
-	return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
-
 } // namespace
 
 TEST(Multiresolution, HasTheLevelsThatTheEncoderMakes)
@@ -52,6 +45,8 @@ TEST(Multiresolution, HasTheLevelsThatTheEncoderMakes)
 			options.optimize   = Optimize::Size;
 			options.bits       = 20;
 			options.wgc        = wgc;
+			options.mode       = Mode::Classic;
+			options.optimize   = Optimize::Size;
 			const auto encoded = encode(m.mesh, options);
 			ASSERT_TRUE(encoded.ok());
 			const Multiresolution levels = levelsOfMesh(m.mesh, 0, wgc);
@@ -136,78 +131,6 @@ TEST(Multiresolution, TheNormalComponentOfASphereIsOutwards)
 		if (levels.birth()[v] > 0) {
 			EXPECT_GT(along[v], 0) << "vertices of a convex surface lie outside of chords";
 		}
-}
-
-TEST(Equalise, GainsOfOneGiveThePositionsBackBitForBit)
-{
-	for (NamedMesh m : allFamilies())
-		for (const int lifting : kLiftings) {
-			SCOPED_TRACE(m.name);
-			for (Vec3& p : m.mesh.positions)
-				for (double& x : p)
-					x = x == 0 ? -0.0 : x / 3; // not exact in binary, and both zeros
-			const Multiresolution levels = levelsOfMesh(m.mesh, lifting);
-			for (const bool normalOnly : {false, true}) {
-				Equaliser same;
-				same.gains.assign(std::size_t(levels.finestLevel()) + 1, 1);
-				same.normalOnly = normalOnly;
-				EXPECT_TRUE(sameBits(equalise(levels, m.mesh.positions, same), m.mesh.positions));
-			}
-		}
-}
-
-TEST(Equalise, GainsOfZeroLeaveWhatTheBaseMeshPredicts)
-{
-	for (const int lifting : kLiftings) {
-		const MeshData mesh          = makeBumpySphere(500, 3);
-		const Multiresolution levels = levelsOfMesh(mesh, lifting);
-		Equaliser none;
-		none.gains.assign(std::size_t(levels.finestLevel()) + 1, 0);
-		std::vector<Vec3> flat = equalise(levels, mesh.positions, none);
-		EXPECT_GT(farthest(flat, mesh.positions), 0.01);
-		levels.analyse(flat);
-		for (std::size_t v = 0; v < flat.size(); ++v)
-			if (levels.birth()[v] > 0) {
-				EXPECT_LT(
-				    std::fabs(flat[v][0]) + std::fabs(flat[v][1]) + std::fabs(flat[v][2]), 1e-9);
-			}
-	}
-}
-
-TEST(Equalise, AGainScalesTheDetailsOfItsLevelAndNoOthers)
-{
-	const MeshData mesh          = makeBumpySphere(800, 4);
-	const Multiresolution levels = levelsOfMesh(mesh);
-	ASSERT_GT(levels.finestLevel(), 2);
-	const int level = levels.finestLevel() - 1;
-	Equaliser twice;
-	twice.gains.assign(std::size_t(levels.finestLevel()) + 1, 1);
-	twice.gains[std::size_t(level)] = 2;
-	std::vector<Vec3> before = mesh.positions, after = equalise(levels, mesh.positions, twice);
-	levels.analyse(before);
-	levels.analyse(after);
-	for (std::size_t v = 0; v < before.size(); ++v)
-		for (std::size_t k = 0; k < 3; ++k)
-			EXPECT_NEAR(after[v][k], (levels.birth()[v] == level ? 2 : 1) * before[v][k], 1e-9);
-}
-
-TEST(Equalise, TheThresholdTakesNoiseOffAPlane)
-{
-	MeshData mesh = makeFlatGrid(33, 33);
-	Rng rng(7);
-	for (Vec3& p : mesh.positions)
-		p[2] += rng.between(-0.02, 0.02);
-	const Multiresolution levels = levelsOfMesh(mesh);
-	Equaliser denoise;
-	denoise.threshold    = 0.03;
-	const auto after     = equalise(levels, mesh.positions, denoise);
-	const auto roughness = [](const std::vector<Vec3>& positions) {
-		double sum = 0;
-		for (const Vec3& p : positions)
-			sum += p[2] * p[2];
-		return std::sqrt(sum / double(positions.size()));
-	};
-	EXPECT_LT(roughness(after), 0.6 * roughness(mesh.positions));
 }
 
 TEST(Multiresolution, RefusesWhatTheEncoderRefuses)

@@ -100,6 +100,11 @@ void CodecOptions::addTo(CLI::App& command)
 	        "--exact", exact,
 	        "Keep every coordinate bit for bit: the finest level is float-lossless")
 	    ->group(group);
+	command
+	    .add_flag(
+	        "--keep-order", keepOrder,
+	        "Keep the order of vertices and faces, and each face's first corner")
+	    ->group(group);
 }
 
 EncodeOptions CodecOptions::toEncodeOptions() const
@@ -117,6 +122,7 @@ EncodeOptions CodecOptions::toEncodeOptions() const
 	o.wgcSharpness = sharpness;
 	o.wgcDeviation = deviation;
 	o.exact        = exact;
+	o.keepOrder    = keepOrder;
 	return o;
 }
 
@@ -159,7 +165,8 @@ std::string nameOf(const EncodeOptions& o)
 	       (o.wgc == Wgc::Off  ? "off"
 	        : o.wgc == Wgc::On ? "on"
 	                           : "auto") +
-	       ", optimize " + nameOf(o.optimize) + (o.exact ? ", exact" : "");
+	       ", optimize " + nameOf(o.optimize) + (o.exact ? ", exact" : "") +
+	       (o.keepOrder ? ", order kept" : "");
 }
 
 std::string messageOf(const std::string& path, const Status& status)

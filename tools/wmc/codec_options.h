@@ -28,6 +28,7 @@ struct CodecOptions
 	double sharpness    = 0.3;
 	double deviation    = 0.25;
 	bool exact          = false;
+	bool keepOrder      = false;
 
 	void addTo(CLI::App& command);
 	EncodeOptions toEncodeOptions() const;

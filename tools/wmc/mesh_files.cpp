@@ -227,8 +227,8 @@ MeshData loadMesh(const std::string& path)
 	if (!wrong.empty())
 		throw Failure(path + ": cannot be read as a mesh: " + wrong);
 	mesh = toMeshData(m);
-	if (mesh.triangles.empty())
-		throw Failure(path + ": there are no faces in it");
+	if (mesh.positions.empty())
+		throw Failure(path + ": there are no vertices in it");
 	return mesh;
 }
 

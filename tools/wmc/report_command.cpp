@@ -65,6 +65,8 @@ struct Report
 	int run() const
 	{
 		const MeshData mesh = loadMesh(in);
+		if (mesh.triangles.empty())
+			throw Failure(in + ": there are no faces in it to measure distances from");
 		const std::size_t n =
 		    samples ? samples : std::max<std::size_t>(100000, mesh.triangles.size());
 		const DistanceMeter meter(mesh, n);

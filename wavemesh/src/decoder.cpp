@@ -24,10 +24,11 @@ struct Decoder::State
 
 	int level = -1;
 	CornerTable table;
-	std::vector<LatticePoint> positions; ///< cells of the level's precision
-	Glue glue;                           ///< of the base mesh
-	std::optional<MeshData> finished;    ///< level J with what follows it, as far as it came
-	Status stopped;                      ///< not ok: no further level can come
+	std::vector<LatticePoint> positions;         ///< cells of the level's precision
+	Glue glue;                                   ///< of the base mesh
+	std::unique_ptr<AttributeReader> attributes; ///< if their chunk is there, whole
+	std::optional<MeshData> finished; ///< level J with what follows it, as far as it came
+	Status stopped;                   ///< not ok: no further level can come
 
 	std::size_t offset = 0; ///< of the next chunk
 	Chunk chunk;            ///< the one being read
@@ -48,6 +49,7 @@ struct Decoder::State
 	Status readChildren(const Refinement& refinement, const CornerTable& child);
 	Status readPrecise();
 	Status finish();
+	Chunk findAttributes() const;
 	Status advance();
 	Status ended(const char* where) const;
 	Status corrupt(const char* what) const;
@@ -139,7 +141,11 @@ Status Decoder::State::readBase()
 	table     = std::move(base->table);
 	positions = std::move(base->positions);
 	glue      = std::move(base->glue);
-	level     = 0;
+	if (const Chunk place = findAttributes(); place.whole) {
+		attributes = std::make_unique<AttributeReader>(head, place.payload, place.size);
+		attributes->advance(table.vertexCount, {}, glue);
+	}
+	level = 0;
 	return {};
 }
 
@@ -148,8 +154,8 @@ Status Decoder::State::readSplit()
 	const LevelRow& target = row(level + 1);
 	Refinement refinement;
 	if (!connectivityModels)
-		connectivityModels = std::make_unique<ConnectivityModels>(
-		    head.rich ? Contexts::Rich : Contexts::Fast);
+		connectivityModels =
+		    std::make_unique<ConnectivityModels>(head.rich ? Contexts::Rich : Contexts::Fast);
 	ConnectivitySyntax<RangeDecoder>(coder, *connectivityModels, table, positions).code(refinement);
 	if (coder.exhausted())
 		return ended("the connectivity");
@@ -161,6 +167,8 @@ Status Decoder::State::readSplit()
 	const Status status =
 	    head.mode == Mode::Classic ? readDetails(refinement) : readChildren(refinement, child);
 	if (status.ok() || status.code == StatusCode::Truncated) {
+		if (attributes)
+			attributes->advance(child.vertexCount, parentsOf(table, refinement), glue);
 		table = std::move(child);
 		++level;
 	}
@@ -228,6 +236,23 @@ Status Decoder::State::advance()
 	return {};
 }
 
+/// The chunk of the attributes, if the data have it whole; else one that is not. Looks at types and
+/// lengths of the chunks before it only: they are checked when their turn comes.
+Chunk Decoder::State::findAttributes() const
+{
+	for (std::size_t at = offset; head.has(kAttributes) && at < size;) {
+		const auto next = readChunkFrame(data, size, at);
+		if (!next.ok() || !next->whole)
+			break;
+		if (next->type == kFeatureChunk[kAttributes]) {
+			const auto checked = readChunk(data, size, at);
+			return checked.ok() ? *checked : Chunk();
+		}
+		at = next->end;
+	}
+	return {};
+}
+
 /// What follows the finest level. What came whole is applied even if more is missing.
 Status Decoder::State::finish()
 {
@@ -241,7 +266,7 @@ Status Decoder::State::finish()
 		if (head.has(Feature(f))) {
 			status = openFeature(Feature(f));
 			if (status.ok())
-				status = stage.apply(Feature(f), chunk.payload, chunk.size);
+				status = stage.apply(Feature(f), chunk.payload, chunk.size, attributes.get());
 		}
 	if (status.ok() || status.code == StatusCode::Truncated)
 		finished = stage.mesh();
@@ -305,6 +330,12 @@ Decoder::open(const std::uint8_t* data, std::size_t size, const DecodeLimits& li
 		    "the file declares " + std::to_string(vertices) + " vertices and " +
 		        std::to_string(faces) + " faces, more than the limit of " +
 		        std::to_string(limits.maxVertices) + " and " + std::to_string(limits.maxFaces));
+	if (state->info.features.attributeValues > limits.maxAttributeValues)
+		return Status(
+		    StatusCode::LimitExceeded, "the file declares " +
+		                                   std::to_string(state->info.features.attributeValues) +
+		                                   " numbers in attributes, more than the limit of " +
+		                                   std::to_string(limits.maxAttributeValues));
 	return Decoder(std::move(state));
 }
 
@@ -343,6 +374,8 @@ MeshData Decoder::mesh() const
 	for (std::size_t f = 0; f < out.triangles.size(); ++f)
 		for (std::size_t k = 0; k < 3; ++k)
 			out.triangles[f][k] = s.table.vertex[3 * f + k];
+	if (s.attributes)
+		out.attributes = s.attributes->ofLevel();
 	return out;
 }
 

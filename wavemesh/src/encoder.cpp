@@ -3,6 +3,7 @@
 #include "encode/classic.h"
 #include "encode/compact.h"
 #include "finish/finish.h"
+#include "wavelet/lifting.h"
 
 #include <wavemesh/codec.h>
 
@@ -35,7 +36,7 @@ Steering steeringFor(Optimize optimize)
 {
 	switch (optimize) {
 	case Optimize::Balanced:
-		return {1, 0.9, 0.75};
+		return {2, 0.9, 0.75};
 	case Optimize::Levels:
 		return {0, 0.9, 0.6};
 	case Optimize::Size:
@@ -55,6 +56,8 @@ Result<QuantisedMesh> prepare(const MeshData& mesh, const EncodeOptions& options
 	const auto lattice = makeLattice(finite, options.bits, options.step);
 	if (!lattice.ok())
 		return lattice.status();
+	if (Status s = checkAttributes(mesh); !s.ok())
+		return s;
 	auto cut = cutToManifold(mesh.triangles, Index(mesh.positions.size()));
 	if (!cut.ok())
 		return cut.status();
@@ -107,7 +110,7 @@ private:
 		head.rich     = options_.effort > 1;
 		head.lattice  = mesh_.lattice;
 		head.digest   = digestOf(levels.replay.finest, levels.positions);
-		head.features = featuresFor(options_, mesh_.cut);
+		head.features = featuresFor(options_, original_, mesh_.cut);
 		return head;
 	}
 
@@ -116,9 +119,10 @@ private:
 		Head head    = headOf(levels, Mode::Classic, wgc);
 		head.lifting = options_.mode == Mode::Classic ? options_.lifting : kLiftingOff;
 		std::vector<std::uint8_t> chunks;
+		const Parents parents = parentsFor(head, levels);
 		if (!writeClassic(levels, head, chunks, stage))
 			return false;
-		keepIfSmaller(levels, head, chunks);
+		keepIfSmaller(levels, parents, head, chunks);
 		return true;
 	}
 
@@ -134,7 +138,7 @@ private:
 			        levels, schedule, head, chunks,
 			        stage.part(double(i) * part, double(i + 1) * part)))
 				return false;
-			keepIfSmaller(levels, head, chunks);
+			keepIfSmaller(levels, parentsFor(head, levels), head, chunks);
 		}
 		return true;
 	}
@@ -142,6 +146,9 @@ private:
 	std::vector<ScheduleOptions> schedulesFor(const Levels& levels) const
 	{
 		constexpr int kAll = ScheduleOptions::kAll;
+		// Coarse levels of high precision, and a short way from each to the next.
+		if (options_.optimize == Optimize::Levels)
+			return {{1, 1, 1}};
 		const bool repeats = repeatsItself(levels.replay.finest, levels.positions);
 		if (options_.effort < 3)
 			return {repeats ? ScheduleOptions {8, 2, kAll} : ScheduleOptions {8, 2, 2}};
@@ -149,11 +156,24 @@ private:
 		return {{8, 1, 1}, {8, 1, 2}, {8, 1, kAll}, {4, 1, last}, {12, 1, last}};
 	}
 
-	void keepIfSmaller(const Levels& levels, Head& head, std::vector<std::uint8_t>& chunks)
+	/// Of all vertices but the base mesh's, if anything asks for them.
+	static Parents parentsFor(const Head& head, const Levels& levels)
+	{
+		Parents all;
+		if (head.has(kAttributes))
+			for (const ReplayedLevel& level : levels.replay.levels) {
+				const Parents some = parentsOf(level.parent, level.refinement);
+				all.insert(all.end(), some.begin(), some.end());
+			}
+		return all;
+	}
+
+	void keepIfSmaller(
+	    const Levels& levels, const Parents& parents, Head& head, std::vector<std::uint8_t>& chunks)
 	{
 		writeFinish(
 		    {original_, mesh_.cut, levels.replay.finest, levels.positions, levels.replay.source,
-		     levels.glue},
+		     levels.glue, parents},
 		    head, chunks);
 		EncodedMesh out;
 		writeHead(head, out.bytes);

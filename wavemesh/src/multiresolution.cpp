@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/quantization.h"
-#include "multires/hierarchy.h"
+#include "mesh/vec3.h"
+#include "multires/mesh_levels.h"
 #include "wavelet/lifting.h"
 
 #include <wavemesh/multiresolution.h>
@@ -37,41 +37,6 @@ struct Multiresolution::Levels
 
 namespace {
 
-/// Lattice on which the coarsening is chosen: as fine as the codec's finest but for overflow.
-constexpr int kSearchBits = 20;
-
-Vec3 operator+(const Vec3& a, const Vec3& b)
-{
-	return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-Vec3 operator-(const Vec3& a, const Vec3& b)
-{
-	return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Vec3 operator*(double s, const Vec3& a)
-{
-	return {s * a[0], s * a[1], s * a[2]};
-}
-double dot(const Vec3& a, const Vec3& b)
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vec3 cross(const Vec3& a, const Vec3& b)
-{
-	return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vec3 unit(const Vec3& a)
-{
-	const double length = std::sqrt(dot(a, a));
-	return length > 0 ? (1 / length) * a : Vec3 {0, 0, 0};
-}
-
-/// What the threshold takes off a detail.
-double partCut(double detail, double threshold)
-{
-	return std::fabs(detail) <= threshold ? detail : threshold * threshold / detail;
-}
-
 /// Normals of a level, weighted by area, at the mesh's vertices that it has; others stay.
 void addNormals(
     const CornerTable& table,
@@ -90,45 +55,6 @@ void addNormals(
 	}
 	for (Index v = 0; v < table.vertexCount; ++v)
 		normals[source[v]] = unit(normals[source[v]]);
-}
-
-Status checkMesh(const MeshData& mesh, const MultiresolutionOptions& options)
-{
-	if (options.lifting < kLiftingOff || options.lifting > 2)
-		return {StatusCode::InvalidArgument, "lifting must be off or the k of a k-disc, 0 to 2"};
-	if (mesh.triangles.empty())
-		return {StatusCode::Unsupported, "the mesh has no faces"};
-	if (mesh.positions.size() > std::numeric_limits<std::int32_t>::max() / 3 ||
-	    mesh.triangles.size() > std::numeric_limits<std::int32_t>::max() / 3)
-		return {StatusCode::LimitExceeded, "the mesh has more than 715 million vertices or faces"};
-	return {};
-}
-
-/// All levels of the mesh, numbered from the base up; Replay::source leads back.
-Result<Replay> levelsOf(const MeshData& mesh, const MultiresolutionOptions& options)
-{
-	if (Status s = checkMesh(mesh, options); !s.ok())
-		return s;
-	const auto lattice = makeLattice(mesh.positions, kSearchBits, 0);
-	if (!lattice.ok())
-		return lattice.status();
-	auto table = buildCornerTable(mesh.triangles, Index(mesh.positions.size()));
-	if (!table.ok())
-		return table.status();
-	const GeometricalCriterion criterion {
-	    options.wgc != Wgc::Off, options.wgcSharpness, options.wgcDeviation};
-	bool running = true;
-	auto coarsenings =
-	    coarsenAll(*table, quantise(mesh.positions, *lattice), criterion, {}, [&](double fraction) {
-		    running = !options.progress || options.progress(0.8 * fraction);
-		    return running;
-	    });
-	if (!running)
-		return Status(StatusCode::Cancelled, "cancelled");
-	CornerTable base = coarsenings.empty() ? std::move(*table) : coarsenings.back().coarse;
-	std::vector<Index> source(base.vertexCount);
-	std::iota(source.begin(), source.end(), 0);
-	return replay(std::move(coarsenings), std::move(base), std::move(source));
 }
 
 } // namespace
@@ -164,7 +90,7 @@ Result<Multiresolution>
 Multiresolution::of(const MeshData& mesh, const MultiresolutionOptions& options)
 {
 	try {
-		auto replayed = levelsOf(mesh, options);
+		auto replayed = replayLevels(mesh, options);
 		if (!replayed.ok())
 			return replayed.status();
 		const std::vector<Index>& source = replayed->source;
@@ -273,34 +199,6 @@ std::vector<double> measureDetails(
 		if (levels.birth()[v] > 0)
 			out[v] = measure == DetailMeasure::Normal ? dot(details[v], levels.normals()[v])
 			                                          : std::sqrt(dot(details[v], details[v]));
-	return out;
-}
-
-std::vector<Vec3> equalise(
-    const Multiresolution& levels, const std::vector<Vec3>& positions, const Equaliser& equaliser)
-{
-	std::vector<Vec3> changes = positions;
-	levels.analyse(changes);
-	for (std::size_t v = 0; v < changes.size(); ++v) {
-		const auto birth = std::size_t(levels.birth()[v]);
-		const Vec3 d = changes[v], n = levels.normals()[v];
-		changes[v] = {0, 0, 0};
-		if (birth == 0)
-			continue;
-		const double gain  = birth < equaliser.gains.size() ? equaliser.gains[birth] : 1;
-		const double along = dot(d, n);
-		const bool cuts    = int(birth) > levels.finestLevel() - equaliser.thresholdLevels;
-		const double cut   = cuts ? partCut(along, equaliser.threshold) : 0;
-		const Vec3 scaled  = equaliser.normalOnly ? (along - cut) * n : d - cut * n;
-		// Spelt so that gain 1 and threshold 0 give zeros, whatever the rounding.
-		changes[v] = (gain - 1) * scaled - cut * n;
-	}
-	levels.synthesise(changes);
-	std::vector<Vec3> out = positions;
-	for (std::size_t v = 0; v < out.size(); ++v)
-		for (std::size_t k = 0; k < 3; ++k)
-			if (changes[v][k] != 0) // adding 0 would turn -0 into 0
-				out[v][k] += changes[v][k];
 	return out;
 }
 

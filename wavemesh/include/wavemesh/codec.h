@@ -38,9 +38,10 @@ enum class Wgc : std::uint8_t {
 /// three: README.
 enum class Optimize : std::uint8_t {
 	Size     = 0, ///< the smallest file: connectivity decides, with wgc as the paper has it
-	Balanced = 1, ///< coarse levels close to the original, for about 2 % more bytes: the finest
-	              ///< step as with Size, the others remove what makes the smallest errors
-	Levels = 2,   ///< the smallest error at any low rate: all steps so; wgc does not matter
+	Balanced = 1, ///< coarse levels closer to the original, for about 2 % more bytes: the two finest
+	              ///< steps as with Size, the others remove what makes the smallest errors
+	Levels = 2,   ///< the smallest error at any low rate: all steps so, and positions are precise
+	              ///< early; wgc does not matter
 };
 
 /// Lifting is off: the lazy filter bank, configuration I of the paper.
@@ -122,6 +123,7 @@ struct StreamFeatures
 	std::uint64_t orderBytes       = 0;
 	std::uint64_t exactBytes       = 0;
 	std::uint64_t attributeBytes   = 0;
+	std::uint64_t attributeValues  = 0; ///< numbers in all attributes
 };
 
 /// What the head of a file tells.
@@ -167,8 +169,9 @@ Result<EncodedMesh> encode(const MeshData& mesh, const EncodeOptions& options = 
 /// What a decoder may spend. A file that declares more is refused before the memory is taken.
 struct DecodeLimits
 {
-	std::uint64_t maxVertices = 200'000'000;
-	std::uint64_t maxFaces    = 400'000'000;
+	std::uint64_t maxVertices        = 200'000'000;
+	std::uint64_t maxFaces           = 400'000'000;
+	std::uint64_t maxAttributeValues = 2'000'000'000; ///< numbers in all attributes together
 };
 
 constexpr int kFinestLevel = -1;

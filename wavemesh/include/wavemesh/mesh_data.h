@@ -5,15 +5,56 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace wavemesh {
 
+/// What an attribute belongs to.
+enum class AttributeOf : std::uint8_t {
+	Vertex = 0,
+	Face   = 1,
+	Corner = 2, ///< of a face; three rows a face
+	Mesh   = 3, ///< one row
+};
+
+/// What an attribute means. The numbers are stable; a reader keeps those that it does not know.
+enum class AttributeKind : std::uint8_t {
+	Custom    = 0, ///< by name
+	Colour    = 1, ///< red, green, blue, alpha, 0..255
+	Normal    = 2,
+	Quality   = 3,
+	TexCoord  = 4, ///< u, v, number of the texture
+	Radius    = 5,
+	Selected  = 6, ///< 0 or 1
+	FauxEdges = 7, ///< bit k: the edge from corner k to the next is inside a polygon
+	Transform = 8, ///< 4 by 4, by rows
+};
+
+/// What numbers an attribute holds. All are kept exactly.
+enum class NumberType : std::uint8_t {
+	Integer = 0, ///< magnitude up to 2^53
+	Float   = 1, ///< values of 32-bit floats
+	Double  = 2,
+};
+
+struct Attribute
+{
+	AttributeOf of     = AttributeOf::Vertex;
+	AttributeKind kind = AttributeKind::Custom;
+	NumberType type    = NumberType::Float;
+	int components     = 1;     ///< 1..16 numbers a row
+	std::string name;           ///< up to 255 bytes; may be empty
+	std::vector<double> values; ///< #rows by `components`
+};
+
 /// A triangle mesh as arrays. Faces are oriented counter-clockwise seen from outside.
 struct MeshData
 {
-	std::vector<std::array<double, 3>> positions;        ///< #V by 3, model units
-	std::vector<std::array<std::uint32_t, 3>> triangles; ///< #F by 3, rows of `positions`
+	std::vector<std::array<double, 3>> positions {};        ///< #V by 3, model units
+	std::vector<std::array<std::uint32_t, 3>> triangles {}; ///< #F by 3, rows of `positions`
+	std::vector<Attribute> attributes {};                   ///< up to 64
+	std::vector<std::string> textures {};                   ///< names, up to 65535 of as many bytes
 };
 
 } // namespace wavemesh

@@ -79,27 +79,4 @@ enum class DetailMeasure {
 std::vector<double> measureDetails(
     const Multiresolution& levels, const std::vector<Vec3>& positions, DetailMeasure measure);
 
-/// What becomes of the details of a mesh.
-struct Equaliser
-{
-	/// By level of birth, gains[0] unused: 0 removes the details of the level, 1 keeps them, 2
-	/// doubles them. Levels that are missing have gain 1.
-	std::vector<double> gains;
-	/// Soft threshold t, before the gains, model units: the normal component d of every detail
-	/// becomes d - t^2 / d, or 0 if it was below t (the non-negative garrote). Noise goes; large
-	/// details hardly change, as they would by t if all became shorter by the same.
-	double threshold = 0;
-	/// The finest so many levels feel the threshold: most of the noise is there, and coarser
-	/// details are as long as it where the surface is merely curved.
-	int thresholdLevels = 1000;
-	/// Gains act on the normal component alone; vertices then hardly move along the surface.
-	bool normalOnly = false;
-};
-
-/// Positions with the details changed. What changes nothing gives the positions back bit for bit,
-/// since the *changes* of the details are what is synthesised, and added.
-/// @param positions  #V by 3, of the mesh
-std::vector<Vec3> equalise(
-    const Multiresolution& levels, const std::vector<Vec3>& positions, const Equaliser& equaliser);
-
 } // namespace wavemesh

@@ -9,11 +9,12 @@
 namespace wavemesh {
 namespace {
 
-constexpr std::uint8_t kMagic[8]         = {0x8b, 'W', 'M', 'C', '\r', '\n', 0x1a, '\n'};
-constexpr std::size_t kChecksumSize      = 4;
-constexpr std::uint32_t kMaxLevels       = 4096;
-constexpr std::uint32_t kMaxElements     = 0x7fffffff / 3;          ///< corners are 32-bit indices
-constexpr std::uint64_t kMaxFeatureBytes = std::uint64_t {1} << 48; ///< sums stay below 2^64
+constexpr std::uint8_t kMagic[8]           = {0x8b, 'W', 'M', 'C', '\r', '\n', 0x1a, '\n'};
+constexpr std::size_t kChecksumSize        = 4;
+constexpr std::uint32_t kMaxLevels         = 4096;
+constexpr std::uint32_t kMaxElements       = 0x7fffffff / 3; ///< corners are 32-bit indices
+constexpr std::uint32_t kMaxAttributeWidth = 64 * 16;
+constexpr std::uint64_t kMaxFeatureBytes   = std::uint64_t {1} << 48; ///< sums stay below 2^64
 
 Status corruptHead(const char* why)
 {
@@ -82,6 +83,12 @@ bool visitFields(Io& io, Head& h)
 		io.varint(h.vertices);
 		io.varint(h.faces);
 	}
+	if (h.has(kAttributes))
+		for (std::uint32_t& width : h.attributeWidths) {
+			io.varint(width);
+			if (width > kMaxAttributeWidth)
+				return false;
+		}
 	for (int f = 0; f < kFeatures; ++f)
 		if (h.has(Feature(f)))
 			io.varint(h.featureBytes[std::size_t(f)]);
@@ -213,7 +220,7 @@ void writeChunk(
 	file.insert(file.end(), out.bytes.begin(), out.bytes.end());
 }
 
-Result<Chunk> readChunk(const std::uint8_t* data, std::size_t size, std::size_t offset)
+Result<Chunk> readChunkFrame(const std::uint8_t* data, std::size_t size, std::size_t offset)
 {
 	Chunk chunk;
 	ByteReader in(data + offset, size - offset);
@@ -237,15 +244,23 @@ Result<Chunk> readChunk(const std::uint8_t* data, std::size_t size, std::size_t 
 	chunk.size  = std::size_t(length);
 	chunk.whole = true;
 	chunk.end   = begin + chunk.size + kChecksumSize;
-	ByteReader tail(data + begin + chunk.size, kChecksumSize);
+	return chunk;
+}
+
+Result<Chunk> readChunk(const std::uint8_t* data, std::size_t size, std::size_t offset)
+{
+	auto chunk = readChunkFrame(data, size, offset);
+	if (!chunk.ok() || !chunk->whole)
+		return chunk;
+	ByteReader tail(chunk->payload + chunk->size, kChecksumSize);
 	std::uint32_t stored = 0;
 	tail.fixed(stored);
-	if (stored != checksum(data + offset, begin + chunk.size - offset))
+	const std::uint8_t type = chunk->type;
+	if (stored != checksum(data + offset, chunk->end - kChecksumSize - offset))
 		return Status(
 		    StatusCode::ChecksumMismatch,
-		    std::string("chunk '") +
-		        (chunk.type >= 32 && chunk.type < 127 ? char(chunk.type) : '?') + "' at offset " +
-		        std::to_string(offset) + " does not match its checksum",
+		    std::string("chunk '") + (type >= 32 && type < 127 ? char(type) : '?') +
+		        "' at offset " + std::to_string(offset) + " does not match its checksum",
 		    offset);
 	return chunk;
 }
@@ -337,6 +352,9 @@ StreamFeatures featuresOf(const Head& head)
 	out.orderBytes       = head.featureBytes[kOrder];
 	out.exactBytes       = head.featureBytes[kExact];
 	out.attributeBytes   = head.featureBytes[kAttributes];
+	out.attributeValues  = std::uint64_t(head.vertices) * head.attributeWidths[0] +
+	                      std::uint64_t(head.faces) * head.attributeWidths[1] +
+	                      3 * std::uint64_t(head.faces) * head.attributeWidths[2];
 	return out;
 }
 

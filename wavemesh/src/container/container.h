@@ -54,7 +54,9 @@ struct Head
 	std::uint32_t vertices = 0; ///< of the original; with kRestoration, else the finest level's
 	std::uint32_t faces    = 0;
 	std::array<std::uint64_t, kFeatures> featureBytes {}; ///< payloads of the features' chunks
-	std::vector<LevelRow> rows;                           ///< coarsest first
+	/// With kAttributes: numbers for each vertex, face and corner.
+	std::array<std::uint32_t, 3> attributeWidths {};
+	std::vector<LevelRow> rows; ///< coarsest first
 
 	bool has(Feature f) const { return (features >> f) & 1; }
 };
@@ -86,6 +88,8 @@ struct Chunk
 	bool whole                  = false; ///< false: the data end inside, nothing was checked
 	std::size_t end             = 0;     ///< offset behind the chunk
 };
+/// As readChunk(), but the checksum is not looked at.
+Result<Chunk> readChunkFrame(const std::uint8_t* data, std::size_t size, std::size_t offset);
 /// Reads the chunk at `offset`; skips none. A cut chunk comes back with what there is of it.
 /// @return Truncated if not even its length is there, ChecksumMismatch
 Result<Chunk> readChunk(const std::uint8_t* data, std::size_t size, std::size_t offset);

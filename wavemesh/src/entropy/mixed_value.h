@@ -33,25 +33,10 @@ struct ScaleTable
 };
 inline constexpr ScaleTable kScaleTable {};
 
-/// What one predictor says.
-struct Opinion
-{
-	std::int64_t centre  = 0; ///< 1/16, |centre| < 2^33
-	int scale            = 0; ///< class of the expected error
-	ResidualShape* shape = nullptr;
-
-	/// Mass below t - 1/2.
-	std::int32_t below(std::int64_t t) const { return shape->below(normalised(16 * t - 8)); }
-	std::int64_t normalised(std::int64_t sixteenths) const
-	{
-		return ((sixteenths - centre) * kScaleTable.inverse[std::size_t(scale)]) >> 20;
-	}
-};
-
-/// ln(above / under) in 1/256, for the mixer.
+/// ln(above / under) in 1/256, for the mixer. @pre both are positive
 inline std::int32_t oddsOf(std::uint32_t above, std::uint32_t under)
 {
-	const std::int32_t x = ((log2Fixed(above) - log2Fixed(under)) * 177) >> 12;
+	const std::int32_t x = ((log2OfWord(above) - log2OfWord(under)) * 177) >> 12;
 	return std::clamp(x, -kStretchMax, kStretchMax);
 }
 
@@ -61,23 +46,46 @@ struct MixContext
 	std::size_t a = 0, b = 0, c = 0; ///< below MixedValue::kContexts
 };
 
+/// Rates of learning by the number of bits seen: a table saves three divisions a question.
+struct MixRates
+{
+	static constexpr std::size_t kSlowest = 1024; ///< bits, from where on the rate is constant
+	std::array<std::uint8_t, kSlowest + 1> of;
+	constexpr MixRates() : of()
+	{
+		for (std::size_t seen = 0; seen < of.size(); ++seen)
+			of[seen] = static_cast<std::uint8_t>(20 + 3000 / (seen + 48));
+	}
+};
+inline constexpr MixRates kMixRates {};
+
 class MixedValue
 {
 public:
 	static constexpr std::size_t kMaxOpinions = 15;
+	static constexpr std::size_t kFewOpinions = 8;
 	static constexpr std::size_t kContexts    = 12;
 
-	/// The predictors' opinions of the next value; the first `count` are asked.
-	std::array<Opinion, kMaxOpinions> opinions;
-	std::size_t count = kMaxOpinions;
-
 	MixedValue();
+
+	/// What predictor i says of the next value.
+	///
+	/// @param centre  1/16, |centre| < 2^33
+	/// @param scale   class of the expected error
+	void setOpinion(std::size_t i, std::int64_t centre, int scale, ResidualShape& shape)
+	{
+		centre_[i]  = centre;
+		inverse_[i] = kScaleTable.inverse[static_cast<std::size_t>(scale)];
+		shape_[i]   = &shape;
+	}
 
 	/// Codes a value of low .. high-1, asking outwards from `guide` in steps that double from
 	/// 2^spread on, then halving what is left.
 	///
-	/// @param odds  callable (low, t, high) -> the last opinion, given as odds in 1/256
-	template <class Coder, class Odds>
+	/// @tparam N      opinions that are asked, the first ones: kFewOpinions or kMaxOpinions
+	/// @param counts  one opinion more if N = kMaxOpinions: below(x) tells how many values below x
+	///                there were; nullptr: has none
+	template <std::size_t N, class Coder, class Counts>
 	std::int64_t codeAround(
 	    Coder& coder,
 	    std::int64_t value,
@@ -86,40 +94,44 @@ public:
 	    std::int64_t guide,
 	    int spread,
 	    const MixContext& context,
-	    const Odds& odds)
+	    const Counts* counts)
 	{
-		for (std::size_t i = 0; i < count; ++i)
-			bounds_[i] = {0, ResidualShape::kTotal};
+		low_.fill(0);
+		high_.fill(ResidualShape::kTotal);
 		Range range {low, high};
-		const bool up      = ask(coder, value, guide, range, 0, context, odds);
+		beginCounts<N>(range, counts);
+		const bool up      = ask<N>(coder, value, guide, range, 0, context, counts);
 		std::int64_t reach = std::int64_t(1) << spread;
 		for (int depth = 1; !coder.exhausted(); ++depth, reach *= 2) {
 			const std::int64_t t = up ? guide + reach : guide - reach;
 			if (t <= low || t >= high)
 				break;
 			const std::size_t node = static_cast<std::size_t>(std::min(depth, kOutward));
-			if (ask(coder, value, t, range, node, context, odds) != up)
+			if (ask<N>(coder, value, t, range, node, context, counts) != up)
 				break;
 		}
-		halve(coder, value, range, kInward, 8, context, odds);
-		return learn(range.low);
+		halve<N>(coder, value, range, kInward, 8, context, counts);
+		return learn<N>(range.low);
 	}
 
 	/// Codes a value of low .. low + 2^bits - 1 by halving.
-	template <class Coder, class Odds>
+	template <std::size_t N, class Coder, class Counts>
 	std::int64_t codeWithin(
 	    Coder& coder,
 	    std::int64_t value,
 	    std::int64_t low,
 	    int bits,
 	    const MixContext& context,
-	    const Odds& odds)
+	    const Counts* counts)
 	{
 		Range range {low, low + (std::int64_t(1) << bits)};
-		for (std::size_t i = 0; i < count; ++i)
-			bounds_[i] = {opinions[i].below(range.low), opinions[i].below(range.high)};
-		halve(coder, value, range, kWithin, 4, context, odds);
-		return learn(range.low);
+		for (std::size_t i = 0; i < N; ++i) {
+			low_[i]  = below(i, range.low);
+			high_[i] = below(i, range.high);
+		}
+		beginCounts<N>(range, counts);
+		halve<N>(coder, value, range, kWithin, 4, context, counts);
+		return learn<N>(range.low);
 	}
 
 private:
@@ -129,20 +141,43 @@ private:
 	static constexpr std::size_t kWithin = 16;
 	static constexpr std::size_t kNodes  = 21;
 	static constexpr std::size_t kSlots  = 33; ///< of the final stage: odds in steps of 1/2
+	/// With few opinions there is no place for that of the counts.
+	template <std::size_t N>
+	static constexpr std::size_t kInputs = N == kMaxOpinions ? N + 1 : N;
 
 	struct Range
 	{
 		std::int64_t low, high;
 	};
 
-	/// Weights in 1/65536, and how many bits they saw.
+	/// Weights in 1/65536, and how many bits they saw. A weight is high * 256 + low: products of 16
+	/// bits are what every processor has in its vector unit.
 	struct Weights
 	{
-		std::array<std::int32_t, kMaxOpinions + 1> of;
+		std::array<std::int16_t, kMaxOpinions + 1> high, low;
 		std::int32_t seen = 0;
 	};
 
-	template <class Coder, class Odds>
+	std::int64_t normalised(std::size_t i, std::int64_t sixteenths) const
+	{
+		return ((sixteenths - centre_[i]) * inverse_[i]) >> 20;
+	}
+	/// Mass below t - 1/2 in predictor i's opinion. Increases with t.
+	std::int32_t below(std::size_t i, std::int64_t t) const
+	{
+		return shape_[i]->below(normalised(i, 16 * t - 8));
+	}
+
+	template <std::size_t N, class Counts>
+	void beginCounts(const Range& range, const Counts* counts)
+	{
+		if (N != kMaxOpinions || counts == nullptr)
+			return;
+		countLow_  = counts->below(static_cast<std::uint32_t>(range.low));
+		countHigh_ = counts->below(static_cast<std::uint32_t>(range.high));
+	}
+
+	template <std::size_t N, class Coder, class Counts>
 	void halve(
 	    Coder& coder,
 	    std::int64_t value,
@@ -150,17 +185,18 @@ private:
 	    std::size_t node,
 	    int deepest,
 	    const MixContext& context,
-	    const Odds& odds)
+	    const Counts* counts)
 	{
 		while (range.high - range.low > 1 && !coder.exhausted()) {
 			const std::int64_t width = range.high - range.low;
 			const int left           = bitLength(static_cast<std::uint64_t>(width - 1));
-			ask(coder, value, range.low + width / 2, range,
-			    node + static_cast<std::size_t>(std::min(left, deepest)), context, odds);
+			ask<N>(
+			    coder, value, range.low + width / 2, range,
+			    node + static_cast<std::size_t>(std::min(left, deepest)), context, counts);
 		}
 	}
 
-	template <class Coder, class Odds>
+	template <std::size_t N, class Coder, class Counts>
 	bool
 	ask(Coder& coder,
 	    std::int64_t value,
@@ -168,30 +204,38 @@ private:
 	    Range& range,
 	    std::size_t node,
 	    const MixContext& context,
-	    const Odds& odds)
+	    const Counts* counts)
 	{
 		if (t <= range.low)
 			return true;
 		if (t >= range.high)
 			return false;
-		for (std::size_t i = 0; i < count; ++i) {
-			middle_[i] = opinions[i].below(t);
-			const auto above =
-			    static_cast<std::uint32_t>(std::max(bounds_[i].high - middle_[i], 0) + 3);
-			const auto under =
-			    static_cast<std::uint32_t>(std::max(middle_[i] - bounds_[i].low, 0) + 3);
-			input_[i] = oddsOf(above, under);
+		std::array<std::int32_t, N> middle;
+		for (std::size_t i = 0; i < N; ++i) {
+			middle[i] = below(i, t);
+			input_[i] = static_cast<std::int16_t>(oddsOf(
+			    static_cast<std::uint32_t>(high_[i] - middle[i] + 3),
+			    static_cast<std::uint32_t>(middle[i] - low_[i] + 3)));
 		}
-		input_[count] = odds(range.low, t, range.high);
+		std::uint32_t count = 0;
+		if constexpr (N == kMaxOpinions) {
+			input_[N] = 0;
+			if (counts != nullptr) {
+				count     = counts->below(static_cast<std::uint32_t>(t));
+				input_[N] = static_cast<std::int16_t>(
+				    oddsOf(16 * (countHigh_ - count) + 6, 16 * (count - countLow_) + 6));
+			}
+		}
 
-		const bool bit                 = mix(coder, value >= t, node, context);
+		const bool bit                 = mix<kInputs<N>>(coder, value >= t, node, context);
 		(bit ? range.low : range.high) = t;
-		for (std::size_t i = 0; i < count; ++i)
-			(bit ? bounds_[i].low : bounds_[i].high) = middle_[i];
+		(bit ? countLow_ : countHigh_) = count;
+		std::array<std::int32_t, kMaxOpinions>& bound = bit ? low_ : high_;
+		std::copy(middle.begin(), middle.end(), bound.begin());
 		return bit;
 	}
 
-	template <class Coder>
+	template <std::size_t Inputs, class Coder>
 	bool mix(Coder& coder, bool value, std::size_t node, const MixContext& context)
 	{
 		Weights* const sets[3] = {
@@ -199,7 +243,7 @@ private:
 		    &sets_[2][node * kContexts + context.c]};
 		std::int32_t said[3], sum = 0;
 		for (std::size_t s = 0; s < 3; ++s) {
-			said[s] = dot(*sets[s]);
+			said[s] = dot<Inputs>(*sets[s]);
 			sum += said[s];
 		}
 		const std::int32_t mean = sum / 3;
@@ -215,62 +259,75 @@ private:
 		value = coder.bit(value, p);
 
 		for (std::size_t s = 0; s < 3; ++s)
-			adapt(*sets[s], squash(said[s]), value);
+			adapt<Inputs>(*sets[s], squash(said[s]), value);
 		std::int32_t& r = refined_[part < 2048 ? slot : slot + 1];
 		r += ((value ? (1 << 22) - 1 : 0) - r) / 64;
 		return value;
 	}
 
+	/// The inputs by their weights, in 1/256.
+	template <std::size_t Inputs>
 	std::int32_t dot(const Weights& w) const
 	{
-		std::int64_t sum = 0;
-		for (std::size_t i = 0; i <= count; ++i)
-			sum += std::int64_t(input_[i]) * w.of[i];
-		return static_cast<std::int32_t>(
-		    std::clamp<std::int64_t>(sum >> 16, -kStretchMax, kStretchMax));
+		std::int32_t high = 0, low = 0; // below 2^26
+		for (std::size_t i = 0; i < Inputs; ++i)
+			high += input_[i] * w.high[i];
+		for (std::size_t i = 0; i < Inputs; ++i)
+			low += input_[i] * w.low[i];
+		return std::clamp((high + (low >> 8)) >> 8, -kStretchMax, kStretchMax);
 	}
 
-	void adapt(Weights& w, Probability p, bool value)
+	/// Weights follow input * error / 2^20, rounded. The error has 24 bits; in two parts, of 12
+	/// each, the products stay below 2^23.
+	template <std::size_t Inputs>
+	void adapt(Weights& w, Probability p, bool value) const
 	{
-		const std::int32_t rate = kRate + kYoungRate / (w.seen + 48);
-		const std::int64_t error =
-		    std::int64_t((value ? 65535 : 0) - static_cast<std::int32_t>(p)) * rate;
-		if (w.seen < 1024)
+		const std::int32_t error = ((value ? 65535 : 0) - static_cast<std::int32_t>(p)) *
+		                           kMixRates.of[static_cast<std::size_t>(w.seen)];
+		if (w.seen < static_cast<std::int32_t>(MixRates::kSlowest))
 			++w.seen;
-		for (std::size_t i = 0; i <= count; ++i)
-			w.of[i] = static_cast<std::int32_t>(std::clamp<std::int64_t>(
-			    w.of[i] + ((input_[i] * error + (1 << 19)) >> 20), -kLargestWeight,
-			    kLargestWeight));
+		const auto errorHigh = static_cast<std::int16_t>(error >> 12);
+		const auto errorLow  = static_cast<std::int16_t>(error & 4095);
+		for (std::size_t i = 0; i < Inputs; ++i) {
+			const std::int32_t step =
+			    (input_[i] * errorHigh + ((input_[i] * errorLow + (1 << 19)) >> 12)) >> 8;
+			const std::int32_t weight =
+			    std::clamp(w.high[i] * 256 + w.low[i] + step, -kLargestWeight, kLargestWeight);
+			w.high[i] = static_cast<std::int16_t>(weight >> 8);
+			w.low[i]  = static_cast<std::int16_t>(weight & 255);
+		}
 	}
-	static constexpr std::int32_t kRate          = 20;
-	static constexpr std::int32_t kYoungRate     = 3000;
-	static constexpr std::int64_t kLargestWeight = 8 * 65536 - 1;
+	static constexpr std::int32_t kLargestWeight = 8 * 65536 - 1;
 
+	template <std::size_t N>
 	std::int64_t learn(std::int64_t x)
 	{
-		for (std::size_t i = 0; i < count; ++i)
-			opinions[i].shape->learn(opinions[i].normalised(16 * x));
+		for (std::size_t i = 0; i < N; ++i)
+			shape_[i]->learn(normalised(i, 16 * x));
 		return x;
 	}
 
-	struct Mass
-	{
-		std::int32_t low, high;
-	};
-	std::array<Mass, kMaxOpinions> bounds_; ///< mass below the ends of the range
-	std::array<std::int32_t, kMaxOpinions> middle_;
-	std::array<std::int32_t, kMaxOpinions + 1>
-	    input_;                                ///< odds in 1/256; the last ones from outside
+	// The predictors' opinions of the next value.
+	std::array<std::int64_t, kMaxOpinions> centre_;
+	std::array<std::int64_t, kMaxOpinions> inverse_; ///< of the expected error
+	std::array<ResidualShape*, kMaxOpinions> shape_;
+
+	std::array<std::int32_t, kMaxOpinions> low_, high_; ///< mass below the ends of the range
+	std::uint32_t countLow_ = 0, countHigh_ = 0;        ///< the same of the counts
+	std::array<std::int16_t, kMaxOpinions + 1>
+	    input_;                                ///< odds in 1/256; the last ones from the counts
 	std::array<std::vector<Weights>, 3> sets_; ///< by kind of question and context
 	std::vector<std::int32_t> refined_;        ///< by kind and odds, probability in 22 bits
 };
 
 inline MixedValue::MixedValue()
 {
-	Weights first;
-	first.of.fill(65536 * 3 / 2 / (kMaxOpinions + 1));
+	constexpr std::int16_t first = 65536 * 3 / 2 / (kMaxOpinions + 1) / 256;
+	Weights weights;
+	weights.high.fill(first);
+	weights.low.fill(0);
 	for (auto& sets : sets_)
-		sets.assign(kNodes * kContexts, first);
+		sets.assign(kNodes * kContexts, weights);
 	refined_.resize(kNodes * kSlots);
 	for (std::size_t i = 0; i < refined_.size(); ++i)
 		refined_[i] = static_cast<std::int32_t>(squash(int(i % kSlots) * 128 - 2048) << 6);

@@ -4,6 +4,7 @@
 /// from those seen. Integers only.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -23,15 +24,15 @@ public:
 	/// Mass of the errors below u, 0..kTotal, increasing; bins are even inside.
 	std::int32_t below(std::int64_t u) const
 	{
-		const Place at = locate(u < 0 ? -u : u);
-		if (u >= 0) {
-			const std::int32_t from = cumulative_[kSide + at.bin];
-			const std::int32_t to   = cumulative_[kSide + at.bin + 1];
-			return from + static_cast<std::int32_t>((std::int64_t(to - from) * at.part) >> at.bits);
-		}
-		const std::int32_t to   = cumulative_[kSide - at.bin];
-		const std::int32_t from = cumulative_[kSide - at.bin - 1];
-		return to - static_cast<std::int32_t>((std::int64_t(to - from) * at.part) >> at.bits);
+		// Bins of negative errors mirror those of positive ones: sign is 0, or -1, which turns
+		// bin b into kSide - 1 - b and makes the mass go down from the bin's upper end.
+		const std::int64_t sign   = u < 0 ? -1 : 0;
+		const Place at            = locate((u ^ sign) - sign);
+		const std::int32_t* edges = &cumulative_[kSide];
+		const std::int64_t bin    = static_cast<std::int64_t>(at.bin) ^ sign;
+		const std::int64_t inside =
+		    (std::int64_t(edges[bin + 1] - edges[bin]) * at.part) >> at.bits;
+		return edges[bin - sign] + static_cast<std::int32_t>((inside ^ sign) - sign);
 	}
 
 	void learn(std::int64_t u);
@@ -70,15 +71,14 @@ namespace wavemesh {
 
 inline ResidualShape::Place ResidualShape::locate(std::int64_t magnitude)
 {
-	if (magnitude < 128)
-		return {static_cast<std::size_t>(magnitude >> 3), magnitude & 7, 3};
-	if (magnitude >= kBeyond)
-		magnitude = kBeyond - 1;
-	const int octave = bitLength(static_cast<std::uint64_t>(magnitude)) - 8;
-	const int bits   = octave + 5;
+	magnitude = std::min(magnitude, kBeyond - 1);
+	// 7 for the even bins below 128; from there on the octaves' number of digits.
+	const int length   = bitLength(static_cast<std::uint64_t>(magnitude | 64));
+	const bool linear  = length == 7;
+	const int bits     = linear ? 3 : length - 3;
+	const int firstBin = linear ? 0 : static_cast<int>(kLinear) + 4 * (length - 8) - 4;
 	return {
-	    kLinear + 4 * static_cast<std::size_t>(octave) +
-	        static_cast<std::size_t>((magnitude >> bits) & 3),
+	    static_cast<std::size_t>(firstBin + static_cast<int>(magnitude >> bits)),
 	    magnitude & ((std::int64_t(1) << bits) - 1), bits};
 }
 

@@ -3,6 +3,7 @@
 
 #include "container/byte_io.h"
 #include "syntax/exact_syntax.h"
+#include "syntax/order_syntax.h"
 #include "syntax/restoration_syntax.h"
 
 namespace wavemesh {
@@ -18,6 +19,18 @@ std::uint32_t digestOf(const RestoredMesh& mesh)
 		for (const std::int32_t x : p)
 			out.fixed(static_cast<std::uint32_t>(x));
 	for (const auto& t : mesh.triangles)
+		for (const Index v : t)
+			out.fixed(v);
+	return checksum(out.bytes.data(), out.bytes.size());
+}
+
+std::uint32_t digestOf(const ElementOrder& order, const Triangles& restored)
+{
+	ByteWriter out;
+	out.bytes.reserve(4 * order.vertex.size() + 12 * restored.size());
+	for (const Index v : order.vertex)
+		out.fixed(v);
+	for (const auto& t : inOrder(restored, order))
 		for (const Index v : t)
 			out.fixed(v);
 	return checksum(out.bytes.data(), out.bytes.size());
@@ -56,12 +69,10 @@ void codeExact(
     const std::vector<LatticePoint>& points,
     Positions& values)
 {
-	bool wide = false;
+	NumberFormat format;
 	if constexpr (!Coder::kReading)
-		for (const auto& p : values)
-			for (const double x : p)
-				wide = wide || !isFloat(x);
-	ExactSyntax<Coder> syntax(coder, codeRaw(coder, 1, wide) != 0);
+		format = formatOf(values, lattice.step);
+	ExactSyntax<Coder> syntax(coder, format, 3);
 	values.resize(points.size());
 	for (std::size_t v = 0; v < points.size() && !coder.exhausted(); ++v) {
 		const auto predicted = lattice.position(points[v]);
@@ -77,10 +88,13 @@ Status wrongDigest(const char* what)
 
 } // namespace
 
-std::uint8_t featuresFor(const EncodeOptions& options, const ManifoldCut& cut)
+std::uint8_t
+featuresFor(const EncodeOptions& options, const MeshData& original, const ManifoldCut& cut)
 {
+	const bool attributes = !original.attributes.empty() || !original.textures.empty();
 	return std::uint8_t(
-	    (cut.changed() ? 1 << kRestoration : 0) | (options.exact ? 1 << kExact : 0));
+	    (cut.changed() ? 1 << kRestoration : 0) | (options.keepOrder ? 1 << kOrder : 0) |
+	    (options.exact ? 1 << kExact : 0) | (attributes ? 1 << kAttributes : 0));
 }
 
 void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>& chunks)
@@ -100,6 +114,14 @@ void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>
 			    coder, from.finest, numbers.count, head.lattice.bits)
 			    .code(r, head.vertices, head.faces);
 		});
+	if (head.has(kOrder)) {
+		ElementOrder order = orderOf(from.original.triangles, restored, source);
+		writeFeature(
+		    kOrder, digestOf(order, restored.triangles), head, chunks, [&](RangeEncoder& coder) {
+			    OrderSyntax<RangeEncoder>(coder, restored.triangles, head.vertices, from.finest)
+			        .code(order);
+		    });
+	}
 	if (head.has(kExact)) {
 		Positions values;
 		values.reserve(source.vertex.size());
@@ -108,6 +130,18 @@ void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>
 		writeFeature(kExact, digestOf(values), head, chunks, [&](RangeEncoder& coder) {
 			codeExact(coder, head.lattice, restored.points, values);
 		});
+	}
+	if (head.has(kAttributes)) {
+		std::vector<Index> originalVertex;
+		for (const Index v : from.source)
+			originalVertex.push_back(from.cut.vertex[v]);
+		head.attributeWidths = attributeWidths(from.original.attributes);
+		const auto payload   = writeAttributes(
+		      {from.original, from.finest, originalVertex, from.parents, from.glue, restored, source,
+		       orderOf(from.original.triangles, restored, source)},
+		      head.rows);
+		head.featureBytes[kAttributes] = payload.size();
+		writeChunk(kFeatureChunk[kAttributes], payload, chunks);
 	}
 }
 
@@ -122,8 +156,14 @@ Finish::Finish(
 {
 }
 
-Status Finish::apply(Feature feature, const std::uint8_t* payload, std::size_t size)
+Status Finish::apply(
+    Feature feature, const std::uint8_t* payload, std::size_t size, AttributeReader* attributes)
 {
+	if (feature == kAttributes) {
+		attributes_ = attributes;
+		return attributes ? attributes->finish(restored_, finest_, numbers_)
+		                  : Status(StatusCode::Corrupt, "the attributes are not in their place");
+	}
 	ByteReader in(payload, size);
 	std::uint32_t digest = 0;
 	in.fixed(digest);
@@ -133,6 +173,8 @@ Status Finish::apply(Feature feature, const std::uint8_t* payload, std::size_t s
 	switch (feature) {
 	case kRestoration:
 		return restoration(coder, digest);
+	case kOrder:
+		return order(coder, digest);
 	case kExact:
 		return exact(coder, digest);
 	default:
@@ -153,6 +195,15 @@ Status Finish::restoration(RangeDecoder& coder, std::uint32_t digest)
 	return digestOf(restored_) == digest ? Status() : wrongDigest("the restored mesh");
 }
 
+Status Finish::order(RangeDecoder& coder, std::uint32_t digest)
+{
+	OrderSyntax<RangeDecoder>(coder, restored_.triangles, Index(restored_.points.size()), finest_)
+	    .code(order_);
+	if (coder.exhausted())
+		return {StatusCode::Corrupt, "the order ends although its chunk is whole"};
+	return digestOf(order_, restored_.triangles) == digest ? Status() : wrongDigest("the order");
+}
+
 Status Finish::exact(RangeDecoder& coder, std::uint32_t digest)
 {
 	codeExact(coder, head_.lattice, restored_.points, exact_);
@@ -169,6 +220,15 @@ MeshData Finish::mesh() const
 	if (exact_.empty())
 		for (const LatticePoint& p : restored_.points)
 			out.positions.push_back(head_.lattice.position(p));
+	if (attributes_) {
+		out.attributes = attributes_->attributes();
+		out.textures   = attributes_->textures();
+	}
+	if (!order_.empty()) {
+		out.attributes = inOrder(std::move(out.attributes), order_);
+		out.triangles  = inOrder(out.triangles, order_);
+		out.positions  = inOrder(out.positions, order_);
+	}
 	return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "container/container.h"
 #include "entropy/range_coder.h"
+#include "finish/attributes.h"
 #include "finish/restoration.h"
 
 namespace wavemesh {
@@ -20,10 +21,12 @@ struct FinishSource
 	const std::vector<LatticePoint>& positions; ///< #V_J, lattice units
 	const std::vector<Index>& source;           ///< #V_J: the cut's vertex behind each
 	const Glue& glue;
+	const std::vector<std::array<Index, 3>>& parents; ///< of the vertices not of the base mesh
 };
 
 /// Features of the head that options and mesh ask for, before anything is coded.
-std::uint8_t featuresFor(const EncodeOptions& options, const ManifoldCut& cut);
+std::uint8_t
+featuresFor(const EncodeOptions& options, const MeshData& original, const ManifoldCut& cut);
 
 /// Appends a chunk for each of head.features and fills in what the head says of them.
 void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>& chunks);
@@ -40,14 +43,20 @@ public:
 	    const Glue& glue);
 
 	/// Applies the chunk of a feature; features come in their order.
+	/// @param attributes  that were read along with the levels; for kAttributes, and to live on
 	/// @return Corrupt, ChecksumMismatch (of the digest); then the mesh is not to be used
-	Status apply(Feature feature, const std::uint8_t* payload, std::size_t size);
+	Status apply(
+	    Feature feature,
+	    const std::uint8_t* payload,
+	    std::size_t size,
+	    AttributeReader* attributes);
 
 	/// The mesh with all that was applied.
 	MeshData mesh() const;
 
 private:
 	Status restoration(RangeDecoder& coder, std::uint32_t digest);
+	Status order(RangeDecoder& coder, std::uint32_t digest);
 	Status exact(RangeDecoder& coder, std::uint32_t digest);
 
 	const Head& head_;
@@ -55,7 +64,9 @@ private:
 	const std::vector<LatticePoint>& positions_;
 	RestoredNumbers numbers_;
 	RestoredMesh restored_;
-	std::vector<std::array<double, 3>> exact_; ///< #V, or empty
+	const AttributeReader* attributes_ = nullptr; ///< read to its end
+	ElementOrder order_;                          ///< or empty
+	std::vector<std::array<double, 3>> exact_;    ///< #V, or empty
 };
 
 } // namespace wavemesh

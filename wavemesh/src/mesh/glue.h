@@ -7,6 +7,7 @@
 
 #include "mesh/corner_table.h"
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace wavemesh {
@@ -24,6 +25,7 @@ struct Glue
 };
 
 /// @param group  #V_0: vertices of the same group, other than kNone, are glued
+/// @return empty if there are none
 inline Glue glueOf(const std::vector<Index>& group)
 {
 	Glue glue;
@@ -35,7 +37,8 @@ inline Glue glueOf(const std::vector<Index>& group)
 		if (glue.first[v] != v)
 			glue.shared[v] = glue.shared[glue.first[v]] = 1;
 	}
-	return glue;
+	const bool any = std::find(glue.shared.begin(), glue.shared.end(), 1) != glue.shared.end();
+	return any ? glue : Glue();
 }
 
 } // namespace wavemesh

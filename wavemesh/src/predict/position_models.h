@@ -36,6 +36,7 @@ enum Repeat : std::uint8_t {
 	kRepeats
 };
 static_assert(std::size_t(kPredictors) + std::size_t(kRepeats) == MixedValue::kMaxOpinions);
+static_assert(std::size_t(kPredictors) == MixedValue::kFewOpinions);
 
 constexpr std::size_t kOffsetFeatures = 7;
 

@@ -176,7 +176,6 @@ private:
 		shift_ = shift;
 		cells_ = &cells;
 		all_.records.resize(table_.vertexCount);
-		m_->value.count = shift == 0 ? MixedValue::kMaxOpinions : std::size_t(kPredictors);
 		if (shift == 0 && fullBits_ <= CompactModels::kCountedBits && !all_.counts[0]) {
 			for (std::size_t k = 0; k < 3; ++k) {
 				all_.counts[k].emplace(std::size_t(1) << fullBits_);
@@ -570,13 +569,10 @@ private:
 			predictOnSurface(view, kSurfaceNarrow, axis, view.across - view.along - 14, errors);
 			predictOnSurface(view, kSurface, axis, view.across - view.along, errors);
 			for (std::size_t i = 0; i < kPredictors; ++i) {
-				const int scale   = view.scale[i][axis];
-				value.opinions[i] = {
-				    view.origin[axis] + view.predicted[i][axis], scale,
-				    &m_->shapes[i]
-				               [scale < 16   ? 0
-				                : scale < 32 ? 1
-				                             : 2]};
+				const int scale         = view.scale[i][axis];
+				const std::size_t large = scale < 16 ? 0 : scale < 32 ? 1 : 2;
+				value.setOpinion(
+				    i, view.origin[axis] + view.predicted[i][axis], scale, m_->shapes[i][large]);
 			}
 			std::size_t best = 0;
 			for (std::size_t i = 1; i < miss.size(); ++i)
@@ -602,7 +598,9 @@ private:
 			                         : n < 4915                          ? 1
 			                         : n < 13107                         ? 2
 			                                                             : 3);
-			cell[axis] = codeCoordinate(v, view, axis, context);
+			cell[axis] = shift_ == 0
+			                 ? codeCoordinate<MixedValue::kMaxOpinions>(v, view, axis, context)
+			                 : codeCoordinate<MixedValue::kFewOpinions>(v, view, axis, context);
 			if (coder_.exhausted())
 				return cell;
 			const std::int64_t offset = 16 * std::int64_t(cell[axis]) - view.origin[axis];
@@ -673,22 +671,15 @@ private:
 		    sure,
 		    0};
 		for (std::size_t i = 0; i < kRepeats; ++i)
-			m_->value.opinions[kPredictors + i] = {centre[i], 8, &m_->repeats[i][axis][context[i]]};
+			m_->value.setOpinion(kPredictors + i, centre[i], 8, m_->repeats[i][axis][context[i]]);
 	}
 
+	template <std::size_t Opinions>
 	std::int32_t
 	codeCoordinate(Index v, const View& view, std::size_t axis, const MixContext& context)
 	{
 		const ValueCounts* counts =
 		    shift_ == 0 && all_.counts[axis] ? &*all_.counts[axis] : nullptr;
-		const auto odds = [&](std::int64_t low, std::int64_t t, std::int64_t high) -> std::int32_t {
-			if (counts == nullptr)
-				return 0;
-			const std::uint32_t below = counts->below(static_cast<std::uint32_t>(t));
-			return oddsOf(
-			    16 * (counts->below(static_cast<std::uint32_t>(high)) - below) + 6,
-			    16 * (below - counts->below(static_cast<std::uint32_t>(low))) + 6);
-		};
 		std::int32_t wanted = 0;
 		if constexpr (!Coder::kReading)
 			wanted = births_ ? (*cells_)[v][axis] : (*truth_)[v][axis];
@@ -697,11 +688,12 @@ private:
 			const std::int64_t guide = std::clamp<std::int64_t>(
 			    (view.origin[axis] + view.offset[axis] + 8) >> 4, 0, end - 1);
 			const int spread = std::max(0, (view.scale[kSurface][axis] - 20) / 4);
-			return static_cast<std::int32_t>(
-			    m_->value.codeAround(coder_, wanted, 0, end, guide, spread, context, odds));
+			return static_cast<std::int32_t>(m_->value.template codeAround<Opinions>(
+			    coder_, wanted, 0, end, guide, spread, context, counts));
 		}
-		return static_cast<std::int32_t>(m_->value.codeWithin(
-		    coder_, wanted, std::int64_t((*cells_)[v][axis]) * (1 << bits_), bits_, context, odds));
+		return static_cast<std::int32_t>(m_->value.template codeWithin<Opinions>(
+		    coder_, wanted, std::int64_t((*cells_)[v][axis]) * (1 << bits_), bits_, context,
+		    counts));
 	}
 
 	// ---- learning -----------------------------------------------------------------------------
