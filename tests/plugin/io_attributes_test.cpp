@@ -3,6 +3,8 @@
 /// Colours, texture coordinates and the like through io_wavemesh, and on the levels.
 #include "test_host.h"
 
+#include <wavemesh/codec.h>
+
 #include <wrap/io_trimesh/io_mask.h>
 
 #include <QImage>
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 using namespace wavemesh;
 using namespace wavemesh::test;
@@ -72,6 +75,28 @@ void texture(MeshModel& layer)
 			f.WT(k).V()       = float(f.cP(k)[2]) / 7;
 			f.WT(k).N()       = 0;
 		}
+}
+
+void textureVertices(MeshModel& layer)
+{
+	texture(layer);
+	layer.clearDataMask(MeshModel::MM_WEDGTEXCOORD);
+	layer.updateDataMask(MeshModel::MM_VERTTEXCOORD);
+	for (auto& v : layer.cm.vert) {
+		v.T().U() = float(v.cP()[1]) / 3;
+		v.T().V() = float(v.cP()[2]) / 7;
+		v.T().N() = 0;
+	}
+}
+
+Attribute attributeOf(AttributeOf of, AttributeKind kind, NumberType type, int components)
+{
+	Attribute a;
+	a.of         = of;
+	a.kind       = kind;
+	a.type       = type;
+	a.components = components;
+	return a;
 }
 
 int countIf(const CMeshO& m, const std::function<bool(const CFaceO&)>& is)
@@ -232,8 +257,8 @@ TEST(IoAttributes, BrowsingShowsTheColoursOfTheFileAndThoseThatTheFinestWasGiven
 	colourVertices(openIsland(host), 100);
 	MeshModel& layer   = reopened(host);
 	const int vertices = layer.cm.vn;
-	const auto browse = [&](const char* level) {
-		host.apply("Wavemesh: Browse Levels", {{"level", level}});
+	const auto browse  = [&](const char* level) {
+        host.apply("Wavemesh: Browse Levels", {{"level", level}});
 	};
 	browse("1");
 	EXPECT_TRUE(hasColours(layer, 100));
@@ -258,4 +283,83 @@ TEST(IoAttributes, ASimplifiedMeshKeepsItsColours)
 	host.apply("Simplification: Wavemesh", {{"target", "0"}, {"levels_removed", "3"}});
 	EXPECT_LT(layer.cm.vn, before);
 	EXPECT_TRUE(hasColours(layer, 100));
+}
+
+TEST(IoAttributes, LevelsWithTextureCoordinatesOfVerticesHaveTheirTexture)
+{
+	MeshLabHost& host = freshHost();
+	textureVertices(openIsland(host));
+	const auto check = [](const MeshModel& layer) {
+		EXPECT_TRUE(layer.hasDataMask(MeshModel::MM_VERTTEXCOORD));
+		ASSERT_EQ(layer.cm.textures, std::vector<std::string> {"wood.png"});
+		EXPECT_EQ(layer.getTexture("wood.png").size(), QSize(4, 3));
+	};
+	MeshModel& layer = reopened(host);
+	check(layer);
+	host.apply("Wavemesh: Browse Levels", {{"level", "1"}});
+	check(layer);
+	host.apply("Wavemesh: Layers from Levels");
+	for (const MeshModel& m : host.document().meshIterator())
+		check(m);
+	host.clear();
+	MeshModel& coarse = *host.open(scratch("attributes.wmc"), {{"level", "1"}}).front();
+	check(coarse);
+	host.apply("Wavemesh: Browse Levels", {{"level", "-1"}});
+	check(coarse);
+	host.clear();
+	for (const MeshModel* m : host.open(scratch("attributes.wmc"), {{"all_levels", "true"}}))
+		check(*m);
+}
+
+TEST(IoAttributes, TheFinestLevelsTextureIsFoundWhenACoarseOneWasOpened)
+{
+	MeshLabHost& host = freshHost();
+	texture(openIsland(host));
+	MeshModel& layer = reopened(host, {}, {{"level", "1"}});
+	EXPECT_TRUE(layer.cm.textures.empty());
+	host.apply("Wavemesh: Browse Levels", {{"level", "-1"}});
+	EXPECT_TRUE(layer.hasDataMask(MeshModel::MM_WEDGTEXCOORD));
+	EXPECT_EQ(layer.getTexture("wood.png").size(), QSize(4, 3));
+}
+
+TEST(IoAttributes, NumbersThatMeshLabCannotHoldBecomeTheNearestThatItCan)
+{
+	const double huge = 1e300, nan = std::numeric_limits<double>::quiet_NaN();
+	MeshData data;
+	data.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+	data.triangles = {{0, 1, 2}};
+	Attribute colour =
+	    attributeOf(AttributeOf::Vertex, AttributeKind::Colour, NumberType::Double, 4);
+	colour.values = {huge, -huge, nan, 7, 256, 255, 0, -1, 1, 2, 3, 4};
+	Attribute wedge =
+	    attributeOf(AttributeOf::Corner, AttributeKind::TexCoord, NumberType::Double, 3);
+	wedge.values = {0, 0, huge, 0, 1, nan, 1, 1, -huge};
+	Attribute faux =
+	    attributeOf(AttributeOf::Face, AttributeKind::FauxEdges, NumberType::Double, 1);
+	faux.values = {nan};
+	// Two of the same name and not of the same size.
+	Attribute narrow =
+	    attributeOf(AttributeOf::Vertex, AttributeKind::Custom, NumberType::Float, 1);
+	Attribute wide = attributeOf(AttributeOf::Vertex, AttributeKind::Custom, NumberType::Double, 1);
+	narrow.name = wide.name = "twice";
+	narrow.values           = {1, 2, 3};
+	wide.values             = {4, 5, 6};
+	data.attributes         = {colour, wedge, faux, narrow, wide};
+	EncodeOptions options;
+	options.keepOrder  = true;
+	const auto encoded = encode(data, options);
+	ASSERT_TRUE(encoded.ok()) << encoded.status().what;
+	writeFile(
+	    scratch("odd.wmc"),
+	    QByteArray(
+	        reinterpret_cast<const char*>(encoded->bytes.data()), int(encoded->bytes.size())));
+	const MeshModel& m = *freshHost().open(scratch("odd.wmc")).front();
+	EXPECT_EQ(m.cm.vert[0].cC(), vcg::Color4b(255, 0, 0, 7));
+	EXPECT_EQ(m.cm.vert[1].cC(), vcg::Color4b(255, 255, 0, 0));
+	EXPECT_EQ(m.cm.face[0].cWT(0).N(), 32767);
+	EXPECT_EQ(m.cm.face[0].cWT(1).N(), 0);
+	EXPECT_EQ(m.cm.face[0].cWT(2).N(), -32768);
+	const auto kept = Custom::FindPerVertexAttribute<float>(m.cm, "twice");
+	ASSERT_TRUE(Custom::IsValidHandle(m.cm, kept));
+	EXPECT_EQ(kept[2], 3);
 }
