@@ -384,6 +384,8 @@ MeshData Decoder::mesh() const
 			out.triangles[f][k] = s.table.vertex[3 * f + k];
 	if (s.attributes)
 		out.attributes = s.attributes->ofLevel();
+	if (!out.attributes.empty())
+		out.textures = s.attributes->textures();
 	return out;
 }
 
