@@ -38,15 +38,15 @@ void CodecOptions::addTo(CLI::App& command)
 	    ->check(CLI::PositiveNumber)
 	    ->excludes(bitsOption)
 	    ->group(group);
-	auto* modeOption =
-	    command
-	        .add_option(
-	            "--mode", mode,
-	            "Coding mode: compact makes positions more precise as the mesh gets denser, and the "
-	            "file smaller; classic is the method of the paper")
-	        ->check(CLI::IsMember({"compact", "classic"}))
-	        ->capture_default_str()
-	        ->group(group);
+	auto* modeOption = command
+	                       .add_option(
+	                           "--mode", mode,
+	                           "Coding mode: compact makes positions more precise as the mesh gets "
+	                           "denser, and the "
+	                           "file smaller; classic is the method of the paper")
+	                       ->check(CLI::IsMember({"compact", "classic"}))
+	                       ->capture_default_str()
+	                       ->group(group);
 	command
 	    .add_option(
 	        "--effort", effort,
@@ -76,7 +76,8 @@ void CodecOptions::addTo(CLI::App& command)
 	    .add_option(
 	        "--wgc", wgc,
 	        "Wavelet geometrical criterion, keeps sharp edges in coarse levels: off, on, or auto "
-	        "(both are tried and the smaller file is kept; compact: with --effort 3 only, else off)")
+	        "(both are tried and the smaller file is kept; compact: with --effort 3 only, else "
+	        "off)")
 	    ->check(CLI::IsMember({"off", "on", "auto"}))
 	    ->capture_default_str()
 	    ->group(group);

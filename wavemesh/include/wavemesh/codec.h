@@ -29,19 +29,20 @@ enum class Mode : std::uint8_t {
 
 /// Wavelet geometrical criterion of the paper, sec. III: may a sharp vertex be removed?
 enum class Wgc : std::uint8_t {
-	Off  = 0, ///< geometry-blind coarsening
-	On   = 1,
-	Auto = 2, ///< both are encoded and the smaller file is kept; Compact: only with effort 3, else Off
+	Off = 0, ///< geometry-blind coarsening
+	On  = 1,
+	Auto =
+	    2, ///< both are encoded and the smaller file is kept; Compact: only with effort 3, else Off
 };
 
 /// What the choice of the vertices that each step removes is good for. Sizes and errors of all
 /// three: README.
 enum class Optimize : std::uint8_t {
 	Size     = 0, ///< the smallest file: connectivity decides, with wgc as the paper has it
-	Balanced = 1, ///< coarse levels closer to the original, for about 2 % more bytes: the two finest
-	              ///< steps as with Size, the others remove what makes the smallest errors
-	Levels = 2,   ///< the smallest error at any low rate: all steps so, and positions are precise
-	              ///< early; wgc does not matter
+	Balanced = 1, ///< coarse levels closer to the original, for about 2 % more bytes: the two
+	              ///< finest steps as with Size, the others remove what makes the smallest errors
+	Levels = 2, ///< the smallest error at any low rate: all steps so, and positions are precise
+	            ///< early; wgc does not matter
 };
 
 /// Lifting is off: the lazy filter bank, configuration I of the paper.
@@ -83,7 +84,7 @@ struct EncodeOptions
 };
 
 enum class LevelKind : std::uint8_t {
-	Base  = 0, ///< the coarsest mesh
+	Base    = 0, ///< the coarsest mesh
 	Split   = 1, ///< one subdivision step
 	Precise = 2, ///< more bits for every position; the same vertices and faces
 };
