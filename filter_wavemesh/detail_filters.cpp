@@ -76,7 +76,7 @@ std::vector<double> gainsOf(const RichParameterList& list, int finest)
 
 const DetailPyramid& PyramidCache::of(const MeshModel& layer, Wgc wgc)
 {
-	const std::uint64_t now = fingerprint(layer.cm);
+	const std::uint64_t now = fingerprint(layer.cm, Extent::Shape);
 	if (!pyramid_ || now != fingerprint_ || wgc != wgc_) {
 		pyramid_.reset();
 		MultiresolutionOptions options;

@@ -175,13 +175,9 @@ FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshDocumen
 	case FP_LAYERS:
 		addLevelListParameters(list);
 		break;
-	case FP_REPORT: {
-		const LayerStream* stream = findStream(layer.cm);
-		addReportParameters(
-		    list, reportOptions(),
-		    stream != nullptr && stream->fingerprint == fingerprint(layer.cm));
+	case FP_REPORT:
+		addReportParameters(list, reportOptions(), findValidStream(layer.cm) != nullptr);
 		break;
-	}
 	case FP_COLOUR:
 		addDetailParameters(list);
 		break;
@@ -236,7 +232,8 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::simplify(
 	const SimplifyTarget target = simplifyTarget(parameters, layer);
 	EncodeOptions options       = encodeOptions(parameters, browsingOptions());
 	options.progress            = progressBar(cb, "Coarsening...");
-	const auto encoded          = encode(toMeshData(layer.cm), options);
+	const unsigned channels     = drawnVertexChannels(layer);
+	const auto encoded          = encode(meshDataOf(layer, channels), options);
 	require(encoded.status(), "Cannot simplify " + layer.label());
 
 	const StreamInfo& info   = encoded->info;
@@ -249,7 +246,7 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::simplify(
 		const auto decoded = decode(encoded->bytes.data(), encoded->bytes.size(), upTo);
 		require(decoded.status(), "Cannot simplify " + layer.label());
 		auto coarse            = makeMesh(decoded->mesh);
-		const QStringList lost = attributesNotKept(layer);
+		const QStringList lost = attributesNotKept(layer, channels);
 		if (!lost.isEmpty())
 			log(GLLogStream::WARNING,
 			    ("The simplified mesh does not have: " + lost.join(", ") + ".").toStdString());
@@ -349,9 +346,9 @@ std::shared_ptr<LayerLevels> FilterWavemeshPlugin::levelsOf(MeshModel& layer)
 
 SharedBytes FilterWavemeshPlugin::encodeForBrowsing(const MeshModel& layer)
 {
-	const std::uint64_t now = fingerprint(layer.cm);
+	const std::uint64_t now = fingerprint(layer.cm, Extent::Attributes);
 	if (!encoded_.stream || encoded_.fingerprint != now) {
-		auto encoded = encode(toMeshData(layer.cm), browsingOptions());
+		auto encoded = encode(meshDataOf(layer, drawnVertexChannels(layer)), browsingOptions());
 		require(encoded.status(), "Cannot make levels of " + layer.label());
 		encoded_ = {
 		    now, std::make_shared<const std::vector<std::uint8_t>>(std::move(encoded->bytes))};
@@ -363,8 +360,8 @@ LevelRange FilterWavemeshPlugin::levelRange(const MeshModel& layer)
 {
 	const WaitCursor waiting;
 	try {
-		const LayerStream* kept  = findStream(layer.cm);
-		const bool valid         = kept != nullptr && kept->fingerprint == fingerprint(layer.cm);
+		const LayerStream* kept  = findValidStream(layer.cm);
+		const bool valid         = kept != nullptr;
 		const SharedBytes stream = valid ? kept->bytes : encodeForBrowsing(layer);
 		const auto info          = readInfo(stream->data(), stream->size());
 		if (info.ok()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "layer_levels.h"
 
+#include <shared/layer_attributes.h>
 #include <shared/plugin_support.h>
 
 #include <wavemesh/vcg_wmc.h>
@@ -43,8 +44,8 @@ LayerLevels::LayerLevels(SharedBytes stream, Decoder decoder) :
 
 std::shared_ptr<LayerLevels> LayerLevels::find(MeshModel& layer)
 {
-	const LayerStream* stream = findStream(layer.cm);
-	if (stream == nullptr || stream->fingerprint != fingerprint(layer.cm))
+	const LayerStream* stream = findValidStream(layer.cm);
+	if (stream == nullptr)
 		return nullptr;
 	std::shared_ptr<LayerLevels> levels = levelsOn(layer.cm);
 	if (levels && levels->stream_ == stream->bytes && levels->shown_ == stream->level)
@@ -71,7 +72,7 @@ void LayerLevels::detach(MeshModel& layer)
 
 void LayerLevels::keepOn(MeshModel& layer, std::shared_ptr<LayerLevels> self) const
 {
-	keepStream(layer.cm, {stream_, shown_, fingerprint(layer.cm)});
+	keepStream(layer.cm, stream_, shown_);
 	levelsOn(layer.cm) = std::move(self);
 }
 
@@ -89,40 +90,43 @@ void LayerLevels::show(MeshModel& layer, int level)
 	if (level == shown_)
 		return;
 	const std::shared_ptr<LayerLevels> self = levelsOn(layer.cm);
-	Away& wanted                            = away_[std::size_t(level)];
+	LooseMesh& wanted                       = away_[std::size_t(level)];
+	const bool first                        = !wanted.mesh;
 	// What can fail comes before the layer is touched.
-	if (!wanted.mesh)
-		wanted = {makeMesh(decoded(level)), MeshModel::MM_NONE};
+	if (first)
+		wanted = makeMesh(decoded(level));
 
 	detach(layer); // the levels must not go away with a mesh that they keep
 	const int mask             = layer.dataMask();
-	auto old                   = exchangeMesh(layer, std::move(wanted.mesh), wanted.dataMask);
-	away_[std::size_t(shown_)] = {std::move(old), mask};
+	auto old                   = exchangeMesh(layer, std::move(wanted));
+	away_[std::size_t(shown_)] = {std::move(old), mask, 0};
 	shown_                     = level;
+	if (first)
+		layer.loadTextures(); // those that no level before had
 	keepOn(layer, self);
 }
 
 void LayerLevels::copyTo(MeshModel& other, const MeshModel& layer, int level)
 {
-	other.cm.Tr      = layer.cm.Tr;
-	const Away& away = away_[std::size_t(finest_)];
+	other.cm.Tr           = layer.cm.Tr;
+	const LooseMesh& away = away_[std::size_t(finest_)];
 	if (level != finest_ || (!away.mesh && shown_ != finest_))
 		exchangeMesh(other, makeMesh(decoded(level)));
 	else {
 		const CMeshO& mesh = away.mesh ? *away.mesh : layer.cm;
 		const int mask     = away.mesh ? away.dataMask : layer.dataMask();
-		exchangeMesh(other, std::make_unique<CMeshO>(mesh), mask);
-		for (const std::string& name : mesh.textures)
-			other.addTexture(name, layer.getTexture(name));
+		exchangeMesh(other, {std::make_unique<CMeshO>(mesh), mask, 0});
 	}
-	keepStream(other.cm, {stream_, level, fingerprint(other.cm)});
+	for (const std::string& name : other.cm.textures)
+		other.addTexture(name, layer.getTexture(name));
+	keepStream(other.cm, stream_, level);
 }
 
 MeshData LayerLevels::finestMesh(const MeshModel& layer)
 {
 	if (shown_ == finest_)
 		return toMeshData(layer.cm);
-	const Away& away = away_[std::size_t(finest_)];
+	const LooseMesh& away = away_[std::size_t(finest_)];
 	return away.mesh ? toMeshData(*away.mesh) : decoded(finest_);
 }
 

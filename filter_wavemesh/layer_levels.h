@@ -3,6 +3,7 @@
 /// The levels of a layer, at hand for browsing.
 #pragma once
 
+#include <shared/layer_attributes.h>
 #include <shared/layer_stream.h>
 
 #include <wavemesh/codec.h>
@@ -58,17 +59,10 @@ private:
 	const MeshData& decoded(int level);
 	void keepOn(MeshModel& layer, std::shared_ptr<LayerLevels> self) const;
 
-	/// A mesh while it is away from the layer.
-	struct Away
-	{
-		std::unique_ptr<CMeshO> mesh;
-		int dataMask = 0;
-	};
-
 	SharedBytes stream_; ///< what decoder_ reads
 	Decoder decoder_;
 	std::vector<MeshData> passed_; ///< by level, as far as decoder_ went
-	std::vector<Away> away_;       ///< by level; empty where the layer has not been
+	std::vector<LooseMesh> away_;  ///< by level; empty where the layer has not been
 	int finest_ = 0;
 	int shown_  = 0;
 };

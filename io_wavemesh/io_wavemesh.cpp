@@ -4,10 +4,9 @@
 #include "file_bytes.h"
 #include "shared/encode_parameters.h"
 #include "shared/encode_presets.h"
+#include "shared/layer_attributes.h"
 #include "shared/layer_stream.h"
 #include "shared/plugin_support.h"
-
-#include <wavemesh/vcg_wmc.h>
 
 #include <QFileInfo>
 
@@ -53,11 +52,17 @@ SharedBytes readWmc(const QString& fileName, const OpenRequest& request)
 	return std::make_shared<const std::vector<std::uint8_t>>(readFile(fileName, limit));
 }
 
-/// Shows `mesh`, level `level` of `stream`, and leaves the stream on the layer for filter_wavemesh.
-void fillLayer(MeshModel& layer, const MeshData& mesh, int level, SharedBytes stream)
+/// Shows `data`, level `level` of `stream`, and leaves the stream on the layer for filter_wavemesh.
+/// @return what came from the file, for MeshLab: bits of vcg::tri::io::Mask
+int fillLayer(MeshModel& layer, const MeshData& data, int level, SharedBytes stream)
 {
-	exchangeMesh(layer, makeMesh(mesh));
-	keepStream(layer.cm, {std::move(stream), level, fingerprint(layer.cm)});
+	LooseMesh loose = makeMesh(data);
+	const int mask  = loose.fileMask;
+	if (channelsOf(data) & kTransform)
+		layer.cm.Tr = loose.mesh->Tr;
+	exchangeMesh(layer, std::move(loose));
+	keepStream(layer.cm, std::move(stream), level);
+	return mask;
 }
 
 /// "18 432 bytes" and the like.
@@ -147,17 +152,21 @@ void IOWavemeshPlugin::open(
 		const int finest = decoder->info().finestLevel();
 		for (MeshModel* layer : layers) {
 			require(decoder->advance(), "Cannot open " + fileName);
-			fillLayer(*layer, decoder->mesh(), decoder->level(), bytes);
+			masks.push_back(fillLayer(*layer, decoder->mesh(), decoder->level(), bytes));
 			layer->setLabel(levelLabel(QFileInfo(fileName).fileName(), decoder->level(), finest));
 			// A project remembers a layer's file and not its level: a coarse level that bore the
 			// name of the whole file would come back as something else, or overwrite it when saved.
 			layer->setIdInFile(-1);
-			if (decoder->level() < finest)
+			if (decoder->level() < finest) {
+				layer->loadTextures(); // as long as it has the file's folder to look in
 				layer->setFileName(QString());
-			masks.push_back(0);
+			}
 			if (progress)
 				progress(double(masks.size()) / double(layers.size()));
 		}
+		// The file has it with the finest mesh; the levels belong in the same place.
+		for (MeshModel* layer : layers)
+			layer->cm.Tr = layers.back()->cm.Tr;
 		log(QString("Opened levels 0 to %1 of %2 from %3.")
 		        .arg(decoder->level())
 		        .arg(finest)
@@ -195,12 +204,11 @@ void IOWavemeshPlugin::open(
 
 		const StreamInfo& info = decoded->info;
 		const bool whole       = decoded->level < wholeLevels(info, bytes->size());
-		fillLayer(layer, decoded->mesh, decoded->level, bytes);
+		mask                   = fillLayer(layer, decoded->mesh, decoded->level, bytes);
 		layer.setLabel(
 		    decoded->level == info.finestLevel() && whole
 		        ? plainLabel(layer.label())
 		        : levelLabel(layer.label(), decoded->level, info.finestLevel()));
-		mask = 0;
 		if (decoded.status().code == StatusCode::Truncated && bytes->size() < request.maxBytes)
 			reportWarning(QString("%1 is truncated: it has %2 of %3. Level %4 of %5 is shown%6.")
 			                  .arg(fileName, QString::number(bytes->size()), byteCount(info.bytes))
@@ -220,8 +228,8 @@ void IOWavemeshPlugin::open(
 
 void IOWavemeshPlugin::exportMaskCapability(const QString&, int& capability, int& defaultBits) const
 {
-	// Coordinates and connectivity, which every format has and no bit stands for.
-	capability = defaultBits = 0;
+	capability  = saveCapability();
+	defaultBits = saveDefault();
 }
 
 RichParameterList
@@ -242,6 +250,9 @@ IOWavemeshPlugin::initSaveParameter(const QString& format, const MeshModel& laye
 	list.addParam(RichEnum("preset", int(Preset::Custom), presetNames(), "Preset", presetHelp()));
 	addEncodeParameters(list, defaults);
 	addPromiseParameters(list);
+	list.addParam(RichBool(
+	    "custom", false, "User-defined attributes",
+	    "Keep the layer's user-defined attributes of vertices and faces, those that are numbers."));
 	return list;
 }
 
@@ -249,7 +260,7 @@ void IOWavemeshPlugin::save(
     const QString& format,
     const QString& fileName,
     MeshModel& layer,
-    const int /*mask*/,
+    const int mask,
     const RichParameterList& parameters,
     vcg::CallBackPos* cb)
 {
@@ -263,16 +274,18 @@ void IOWavemeshPlugin::save(
 		options = optionsOf(Preset(preset), options);
 
 		const Stopwatch watch;
-		options.progress   = progressBar(cb, "Encoding...");
-		const auto encoded = encode(toMeshData(layer.cm), options);
+		options.progress  = progressBar(cb, "Encoding...");
+		unsigned channels = channelsOf(layer, mask);
+		if (flagOf(parameters, "custom", false))
+			channels |= kCustom;
+		const auto encoded = encode(meshDataOf(layer, channels), options);
 		require(encoded.status(), "Cannot save " + fileName);
 		writeFile(fileName, encoded->bytes);
 
 		// Not reportWarning(): MeshLab shows what that collects after the next opening.
-		const QStringList lost = attributesNotKept(layer);
+		const QStringList lost = attributesNotKept(layer, channels);
 		if (!lost.isEmpty())
-			log(GLLogStream::WARNING,
-			    ("A .wmc file does not keep yet: " + lost.join(", ") + ".").toStdString());
+			log(GLLogStream::WARNING, ("Not saved: " + lost.join(", ") + ".").toStdString());
 		const double bytes     = double(encoded->bytes.size());
 		const double binaryPly = 12.0 * layer.cm.vn + 13.0 * layer.cm.fn;
 		log(QString("Saved %1: %2 in %3 levels, %4 bits per vertex, 1/%5 of a binary PLY, %6 s.")

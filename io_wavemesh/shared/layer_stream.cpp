@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "layer_stream.h"
 
-#include <wavemesh/vcg_wmc.h>
-
 #include <QRegularExpression>
 
 #include <cstring>
@@ -35,6 +33,71 @@ void swapMeshes(CMeshO& onLayer, CMeshO& other)
 	swap(onLayer.shot, other.shot); // back again: the camera is the layer's
 }
 
+/// How closely a layer that shows the stream's level is compared with it.
+Extent comparedOf(const LayerStream& stream)
+{
+	return stream.finest ? Extent::Attributes : Extent::Shape;
+}
+
+class Hash
+{
+public:
+	explicit Hash(std::uint64_t seed) : hash_(seed) {}
+	void mix(std::uint64_t word)
+	{
+		hash_ = (hash_ ^ word) * 0x9e3779b97f4a7c15ull;
+		hash_ ^= hash_ >> 29;
+	}
+	template <class Number>
+	void mixBits(Number number)
+	{
+		std::uint64_t word = 0;
+		std::memcpy(&word, &number, sizeof number);
+		mix(word);
+	}
+	void mixColour(const vcg::Color4b& c)
+	{
+		for (int k = 0; k < 4; ++k)
+			mix(c[k]);
+	}
+	template <class TexCoord>
+	void mixTexCoord(const TexCoord& t)
+	{
+		mixBits(t.U());
+		mixBits(t.V());
+		mixBits(t.N());
+	}
+	std::uint64_t value() const { return hash_; }
+
+private:
+	std::uint64_t hash_;
+};
+
+void mixAttributes(const CMeshO& m, Hash& hash)
+{
+	for (const CVertexO& v : m.vert) {
+		if (v.IsD())
+			continue;
+		hash.mixColour(v.cC());
+		hash.mixBits(v.cQ());
+		if (m.vert.IsTexCoordEnabled())
+			hash.mixTexCoord(v.cT());
+		if (m.vert.IsRadiusEnabled())
+			hash.mixBits(v.cR());
+	}
+	for (const CFaceO& f : m.face) {
+		if (f.IsD())
+			continue;
+		if (m.face.IsColorEnabled())
+			hash.mixColour(f.cC());
+		if (m.face.IsQualityEnabled())
+			hash.mixBits(f.cQ());
+		if (m.face.IsWedgeTexCoordEnabled())
+			for (int k = 0; k < 3; ++k)
+				hash.mixTexCoord(f.cWT(k));
+	}
+}
+
 } // namespace
 
 const LayerStream* findStream(const CMeshO& m)
@@ -43,8 +106,22 @@ const LayerStream* findStream(const CMeshO& m)
 	return Attributes::IsValidHandle(m, handle) && handle().bytes ? &handle() : nullptr;
 }
 
-void keepStream(CMeshO& m, LayerStream stream)
+const LayerStream* findValidStream(const CMeshO& m)
 {
+	const LayerStream* stream = findStream(m);
+	return stream != nullptr && stream->fingerprint == fingerprint(m, comparedOf(*stream))
+	           ? stream
+	           : nullptr;
+}
+
+void keepStream(CMeshO& m, SharedBytes bytes, int level)
+{
+	LayerStream stream;
+	const auto info    = readInfo(bytes->data(), bytes->size());
+	stream.finest      = info.ok() && level == info->finestLevel() && bytes->size() >= info->bytes;
+	stream.bytes       = std::move(bytes);
+	stream.level       = level;
+	stream.fingerprint = fingerprint(m, comparedOf(stream));
 	Attributes::GetPerMeshAttribute<LayerStream>(m, kStreamAttribute)() = std::move(stream);
 }
 
@@ -61,13 +138,9 @@ int wholeLevels(const StreamInfo& info, std::uint64_t size)
 	return count;
 }
 
-std::uint64_t fingerprint(const CMeshO& m)
+std::uint64_t fingerprint(const CMeshO& m, Extent extent)
 {
-	std::uint64_t hash = std::uint64_t(m.vn) * 0x9e3779b97f4a7c15ull + std::uint64_t(m.fn);
-	const auto mix     = [&hash](std::uint64_t word) {
-        hash = (hash ^ word) * 0x9e3779b97f4a7c15ull;
-        hash ^= hash >> 29;
-	};
+	Hash hash(std::uint64_t(m.vn) * 0x9e3779b97f4a7c15ull + std::uint64_t(m.fn));
 	// Deleted vertices vanish when MeshLab compacts the mesh, which is no edit: count without them.
 	std::vector<std::uint64_t> rank;
 	std::uint64_t count = 0;
@@ -78,37 +151,27 @@ std::uint64_t fingerprint(const CMeshO& m)
 			continue;
 		if (!rank.empty())
 			rank[i] = count++;
-		for (int k = 0; k < 3; ++k) {
-			std::uint64_t word = 0;
-			std::memcpy(&word, &m.vert[i].cP()[k], sizeof(Scalarm));
-			mix(word);
-		}
+		for (int k = 0; k < 3; ++k)
+			hash.mixBits(m.vert[i].cP()[k]);
 	}
 	for (const CFaceO& f : m.face)
 		for (int k = 0; k < 3 && !f.IsD(); ++k) {
 			const std::size_t i = vcg::tri::Index(m, f.cV(k));
-			mix(rank.empty() ? i : rank[i]);
+			hash.mix(rank.empty() ? i : rank[i]);
 		}
-	return hash;
+	if (extent == Extent::Attributes)
+		mixAttributes(m, hash);
+	return hash.value();
 }
 
-std::unique_ptr<CMeshO> makeMesh(const MeshData& data)
-{
-	auto mesh = std::make_unique<CMeshO>();
-	fromMeshData(data, *mesh);
-	// As MeshLab computes them when it opens a file.
-	vcg::tri::UpdateNormal<CMeshO>::PerVertexAngleWeighted(*mesh);
-	return mesh;
-}
-
-std::unique_ptr<CMeshO> exchangeMesh(MeshModel& layer, std::unique_ptr<CMeshO> mesh, int dataMask)
+std::unique_ptr<CMeshO> exchangeMesh(MeshModel& layer, LooseMesh loose)
 {
 	auto old = std::make_unique<CMeshO>();
 	// Clearing the data mask disables the data themselves: while no mesh is there to lose them.
 	swapMeshes(layer.cm, *old);
 	layer.clearDataMask(layer.dataMask() & kOptionalData);
-	swapMeshes(layer.cm, *mesh);
-	layer.updateDataMask(dataMask & kOptionalData);
+	swapMeshes(layer.cm, *loose.mesh);
+	layer.updateDataMask(loose.dataMask & kOptionalData);
 	return old;
 }
 
@@ -123,31 +186,6 @@ QString levelLabel(const QString& label, int level, int finest)
 QString plainLabel(QString label)
 {
 	return label.remove(QRegularExpression(" \\(level \\d+ of \\d+\\)(?=(\\.[^.]*)?$)"));
-}
-
-QStringList attributesNotKept(const MeshModel& layer)
-{
-	static const struct
-	{
-		int mask;
-		const char* name;
-	} kinds[] = {
-	    {MeshModel::MM_VERTCOLOR, "vertex colours"},
-	    {MeshModel::MM_VERTQUALITY, "vertex quality"},
-	    {MeshModel::MM_VERTRADIUS, "vertex radius"},
-	    {MeshModel::MM_VERTTEXCOORD, "vertex texture coordinates"},
-	    {MeshModel::MM_WEDGTEXCOORD, "wedge texture coordinates"},
-	    {MeshModel::MM_FACECOLOR, "face colours"},
-	    {MeshModel::MM_FACEQUALITY, "face quality"},
-	    {MeshModel::MM_POLYGONAL, "polygons (they become triangles)"},
-	};
-	QStringList names;
-	for (const auto& kind : kinds)
-		if (layer.hasDataMask(kind.mask))
-			names << kind.name;
-	if (layer.cm.en > 0)
-		names << "edges";
-	return names;
 }
 
 } // namespace wavemesh

@@ -105,7 +105,7 @@ std::list<MeshModel*> MeshLabHost::open(const QString& file, const Settings& set
 	return layers;
 }
 
-void MeshLabHost::save(const QString& file, const Settings& settings)
+void MeshLabHost::save(const QString& file, const Settings& settings, std::optional<int> mask)
 {
 	const KeepCurrentFolder keep;
 	const QString format   = QFileInfo(file).suffix().toLower();
@@ -113,11 +113,13 @@ void MeshLabHost::save(const QString& file, const Settings& settings)
 	if (plugin == nullptr)
 		throw MLException("No plugin saves ." + format);
 	plugin->setLog(&document_->Log);
-	int capability = 0, mask = 0;
-	plugin->exportMaskCapability(format, capability, mask);
+	int capability = 0, chosen = 0;
+	plugin->exportMaskCapability(format, capability, chosen);
 	RichParameterList parameters = plugin->initSaveParameter(format, mesh());
 	set(parameters, settings);
-	plugin->save(format, QFileInfo(file).absoluteFilePath(), mesh(), mask, parameters, progress);
+	plugin->save(
+	    format, QFileInfo(file).absoluteFilePath(), mesh(), mask.value_or(chosen), parameters,
+	    progress);
 }
 
 void MeshLabHost::reload(MeshModel& layer)

@@ -17,6 +17,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,9 @@ public:
 	/// Reads a layer's file anew, with the plugin's defaults.
 	void reload(MeshModel& layer);
 	/// Saves the current layer.
-	void save(const QString& file, const Settings& settings = {});
+	/// @param mask  what to save of it, bits of vcg::tri::io::Mask; without, what the plugin has
+	///              chosen at first
+	void save(const QString& file, const Settings& settings = {}, std::optional<int> mask = {});
 	/// Saves the layers as files of a folder, and the document as a project (.mlp) there.
 	void saveProject(const QString& file);
 	/// Opens a project: its layers are added to the document.

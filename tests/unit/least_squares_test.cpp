@@ -36,7 +36,7 @@ void teach(Fit& fit, const Weights& w, Rng& rng, int vertices, std::int32_t impo
 	for (int i = 0; i < vertices; ++i) {
 		for (int k = 0; k < 3; ++k) {
 			const Fit::Features f = randomFeatures(rng);
-			fit.observe(f, targetOf(w, f), importance);
+			fit.observe<1>({f}, {targetOf(w, f)}, {importance});
 		}
 		fit.endOfVertex();
 	}
@@ -107,7 +107,7 @@ void teachExtremes()
 			f[i] = (pattern >> (i % 4)) & 1 ? kMost : -kMost;
 		for (int i = 0; i < 3000; ++i) {
 			for (int k = 0; k < 3; ++k)
-				fit.observe(f, pattern & 1 ? kMost : -kMost, 1024);
+				fit.template observe<1>({f}, {pattern & 1 ? kMost : -kMost}, {1024});
 			fit.endOfVertex();
 		}
 		const std::int64_t most = std::int64_t(N) * 4 * kMost;
@@ -132,7 +132,8 @@ TEST(LeastSquares, OfExtremesThatContradictNeverOverflows)
 			LeastSquares<9>::Features f;
 			for (auto& x : f)
 				x = static_cast<std::int32_t>(rng.below(3)) * kMost - kMost;
-			fit.observe(f, rng.below(2) ? kMost : -kMost, 1 + static_cast<int>(rng.below(1024)));
+			fit.observe<1>(
+			    {f}, {rng.below(2) ? kMost : -kMost}, {1 + static_cast<int>(rng.below(1024))});
 			ASSERT_LE(std::abs(std::int64_t(fit.predict(f))), std::int64_t(36) * kMost);
 		}
 		fit.endOfVertex();
@@ -144,7 +145,7 @@ TEST(LeastSquares, OfAllZerosStaysZero)
 	Fit fit;
 	for (int i = 0; i < 5000; ++i) {
 		for (int k = 0; k < 3; ++k)
-			fit.observe({0, 0, 0, 0, 0}, Fit::kLargest, 1024);
+			fit.observe<1>({Fit::Features {}}, {Fit::kLargest}, {1024});
 		fit.endOfVertex();
 	}
 	EXPECT_EQ(fit.predict({1000, 1000, 1000, 1000, 1000}), 0);

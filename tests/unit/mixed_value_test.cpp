@@ -23,29 +23,28 @@ struct Task
 	std::array<int, MixedValue::kMaxOpinions> scale {};
 };
 
-/// Codes all the tasks; the same learning on both sides.
-template <class Coder>
-std::vector<std::int64_t> run(Coder& coder, std::size_t count, const std::vector<Task>& tasks)
+/// As if every sixteenth value had come up once.
+struct EvenCounts
+{
+	std::uint32_t below(std::uint32_t x) const { return x / 16; }
+};
+
+/// Codes all the tasks with N opinions; the same learning on both sides.
+template <std::size_t N, class Coder>
+std::vector<std::int64_t> run(Coder& coder, const std::vector<Task>& tasks)
 {
 	const auto value = std::make_unique<MixedValue>();
-	std::vector<ResidualShape> shapes(MixedValue::kMaxOpinions);
-	value->count = count;
+	std::vector<ResidualShape> shapes(N);
+	const EvenCounts even;
 	std::vector<std::int64_t> out;
 	for (const Task& t : tasks) {
-		for (std::size_t i = 0; i < count; ++i)
-			value->opinions[i] = {t.centre[i], t.scale[i], &shapes[i]};
-		const auto odds = [&](std::int64_t low, std::int64_t middle, std::int64_t high) {
-			return t.asOdds ? oddsOf(
-			                      static_cast<std::uint32_t>(
-			                          std::min<std::int64_t>(high - middle, 1 << 30)),
-			                      static_cast<std::uint32_t>(
-			                          std::min<std::int64_t>(middle - low, 1 << 30)))
-			                : 0;
-		};
+		for (std::size_t i = 0; i < N; ++i)
+			value->setOpinion(i, t.centre[i], t.scale[i], shapes[i]);
+		const EvenCounts* const counts = t.asOdds ? &even : nullptr;
 		out.push_back(
-		    t.bits > 0 ? value->codeWithin(coder, t.value, t.low, t.bits, t.context, odds)
-		               : value->codeAround(
-		                     coder, t.value, t.low, t.high, t.guide, t.spread, t.context, odds));
+		    t.bits > 0 ? value->codeWithin<N>(coder, t.value, t.low, t.bits, t.context, counts)
+		               : value->codeAround<N>(
+		                     coder, t.value, t.low, t.high, t.guide, t.spread, t.context, counts));
 	}
 	return out;
 }
@@ -58,18 +57,22 @@ std::vector<std::int64_t> valuesOf(const std::vector<Task>& tasks)
 	return out;
 }
 
-std::vector<std::uint8_t> encoded(std::size_t count, const std::vector<Task>& tasks)
+constexpr std::size_t kMost = MixedValue::kMaxOpinions, kFew = MixedValue::kFewOpinions;
+
+template <std::size_t N>
+std::vector<std::uint8_t> encoded(const std::vector<Task>& tasks)
 {
 	RangeEncoder coder;
-	EXPECT_EQ(run(coder, count, tasks), valuesOf(tasks)) << "the encoder says what it wrote";
+	EXPECT_EQ(run<N>(coder, tasks), valuesOf(tasks)) << "the encoder says what it wrote";
 	return coder.finish();
 }
 
-void expectInverse(std::size_t count, const std::vector<Task>& tasks)
+template <std::size_t N>
+void expectInverse(const std::vector<Task>& tasks)
 {
-	const auto stream = encoded(count, tasks);
+	const auto stream = encoded<N>(tasks);
 	RangeDecoder decoder(stream.data(), stream.size());
-	ASSERT_EQ(run(decoder, count, tasks), valuesOf(tasks)) << count << " opinions";
+	ASSERT_EQ(run<N>(decoder, tasks), valuesOf(tasks)) << N << " opinions";
 	EXPECT_FALSE(decoder.exhausted());
 }
 
@@ -117,10 +120,12 @@ std::vector<Task> randomTasks(std::uint64_t seed, int count)
 	return tasks;
 }
 
-TEST(MixedValue, ReadsWhatWasWrittenWithAnyNumberOfOpinions)
+TEST(MixedValue, ReadsWhatWasWrittenWithFewOpinionsAndWithAll)
 {
-	for (std::size_t count = 0; count <= MixedValue::kMaxOpinions; ++count)
-		expectInverse(count, randomTasks(500 + count, 300));
+	for (std::uint64_t seed = 500; seed < 510; ++seed) {
+		expectInverse<kFew>(randomTasks(seed, 300));
+		expectInverse<kMost>(randomTasks(seed, 300));
+	}
 }
 
 TEST(MixedValue, OfARangeOfOneCostsNothing)
@@ -128,8 +133,8 @@ TEST(MixedValue, OfARangeOfOneCostsNothing)
 	std::vector<Task> tasks(1000);
 	for (Task& t : tasks)
 		t.high = 1;
-	expectInverse(MixedValue::kMaxOpinions, tasks);
-	EXPECT_TRUE(encoded(MixedValue::kMaxOpinions, tasks).empty());
+	expectInverse<kMost>(tasks);
+	EXPECT_TRUE(encoded<kMost>(tasks).empty());
 }
 
 TEST(MixedValue, GuideAtAnEndOfTheRangeReachesTheOther)
@@ -146,8 +151,8 @@ TEST(MixedValue, GuideAtAnEndOfTheRangeReachesTheOther)
 					t.spread = spread;
 					tasks.push_back(t);
 				}
-	for (const std::size_t count : {std::size_t {0}, std::size_t {1}, MixedValue::kMaxOpinions})
-		expectInverse(count, tasks);
+	expectInverse<kFew>(tasks);
+	expectInverse<kMost>(tasks);
 }
 
 /// Twelve bits; opinion `right` says it to half a step, the others are noise.
@@ -174,39 +179,23 @@ TEST(MixedValue, LearnsWhichOpinionIsRight)
 {
 	for (const std::size_t right : {0u, 7u, 14u}) {
 		const auto tasks  = tasksWithOneGoodOpinion(right);
-		const auto stream = encoded(MixedValue::kMaxOpinions, tasks);
+		const auto stream = encoded<kMost>(tasks);
 		EXPECT_LT(8 * stream.size(), 2 * tasks.size()) << "of twelve bits less than two are left";
 	}
-}
-
-TEST(MixedValue, WithoutAnOpinionCostsWhatItsBitsDo)
-{
-	Rng rng(18);
-	std::vector<Task> tasks;
-	for (int i = 0; i < 3000; ++i) {
-		Task t;
-		t.low   = 256;
-		t.bits  = 8;
-		t.value = 256 + std::int64_t(rng.below(256));
-		tasks.push_back(t);
-	}
-	const auto stream = encoded(0, tasks);
-	EXPECT_LT(double(stream.size()), 1.03 * double(tasks.size()));
-	EXPECT_GT(double(stream.size()), 0.97 * double(tasks.size()));
 }
 
 TEST(MixedValue, FromACutStreamIsExactUntilItIsExhaustedAndThenEnds)
 {
 	const auto tasks  = randomTasks(600, 3000);
 	const auto values = valuesOf(tasks);
-	const auto stream = encoded(MixedValue::kMaxOpinions, tasks);
+	const auto stream = encoded<kMost>(tasks);
 	ASSERT_GT(stream.size(), 100u);
 	std::size_t before = 0;
 	for (std::size_t n = 0; n < stream.size(); n += 1 + n / 16) {
 		const std::vector<std::uint8_t> cut(
 		    stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(n));
 		RangeDecoder decoder(cut.data(), cut.size());
-		const auto out = run(decoder, MixedValue::kMaxOpinions, tasks); // comes back at all
+		const auto out = run<kMost>(decoder, tasks); // comes back at all
 		EXPECT_TRUE(decoder.exhausted()) << n;
 		std::size_t right = 0;
 		while (right < out.size() && out[right] == values[right])
@@ -232,7 +221,7 @@ TEST(MixedValue, FromGarbageStaysInRange)
 		for (auto& b : garbage)
 			b = static_cast<std::uint8_t>(rng.next());
 		RangeDecoder decoder(garbage.data(), garbage.size());
-		const auto out = run(decoder, MixedValue::kMaxOpinions, tasks);
+		const auto out = run<kMost>(decoder, tasks);
 		for (std::size_t i = 0; i < out.size(); ++i) {
 			ASSERT_GE(out[i], tasks[i].low);
 			ASSERT_LT(out[i], tasks[i].high);

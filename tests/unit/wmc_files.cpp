@@ -106,9 +106,9 @@ std::vector<SmallFile> smallFiles()
 		MeshData mesh;
 		int bits, lifting;
 		Wgc wgc;
-		Mode mode      = Mode::Classic;
-		int effort     = 2;
 		bool keepOrder = false, exact = false;
+		Mode mode  = Mode::Classic;
+		int effort = 2;
 	};
 	const Recipe recipes[] = {
 	    {"triangle", makeTriangle(), 8, kLiftingOff, Wgc::Off},
@@ -120,18 +120,21 @@ std::vector<SmallFile> smallFiles()
 	     7, kLiftingOff, Wgc::Auto},
 	    {"kleetope", makeKleetope(makeIcosahedron()), 5, 2, Wgc::Off},
 	    {"no_manifold", makeNoManifold(), 6, 0, Wgc::Off},
-	    {"order_and_exact", makeFlippedSphere(20, 6), 5, 0, Wgc::Off, Mode::Classic, 2, true, true},
-	    {"every_promise", makeNoManifold(), 6, kLiftingOff, Wgc::Off, Mode::Classic, 2, true, true},
+	    {"order_and_exact", makeFlippedSphere(20, 6), 5, 0, Wgc::Off, true, true},
+	    {"every_promise", makeNoManifold(), 6, kLiftingOff, Wgc::Off, true, true},
 	    {"attributes", withColours(makeGrid(4, 3)), 6, kLiftingOff, Wgc::Off},
 	    {"several_chunks", makeFlippedSphere(200, 15), 20, kLiftingOff, Wgc::Off},
-	    {"compact_triangle", makeTriangle(), 8, 0, Wgc::Off, Mode::Compact},
-	    {"compact_smooth", makeBumpySphere(40, 1), 12, 0, Wgc::Off, Mode::Compact},
+	    {"compact_triangle", makeTriangle(), 8, 0, Wgc::Off, false, false, Mode::Compact},
+	    {"compact_smooth", makeBumpySphere(40, 1), 12, 0, Wgc::Off, false, false, Mode::Compact},
 	    {"compact_open", joined({makeTerrain(30, 1), moved(makeStrip(5), 3, 0, 0)}), 10, 0,
-	     Wgc::Off, Mode::Compact, 3},
-	    {"compact_repeats", punch(makeFlatGrid(6, 6), 3, 1), 14, 0, Wgc::Off, Mode::Compact},
+	     Wgc::Off, false, false, Mode::Compact, 3},
+	    {"compact_repeats", punch(makeFlatGrid(6, 6), 3, 1), 14, 0, Wgc::Off, false, false,
+	     Mode::Compact},
 	    {"compact_repeats_effort_3", joined({makeFlatGrid(5, 5), makeCube()}), 16, 0, Wgc::Auto,
-	     Mode::Compact, 3},
-	    {"compact_24_bits", makeFlippedSphere(30, 5), 24, 0, Wgc::Off, Mode::Compact},
+	     false, false, Mode::Compact, 3},
+	    {"compact_every_promise", withColours(makeNoManifold()), 8, 0, Wgc::Off, true, true,
+	     Mode::Compact},
+	    {"compact_24_bits", makeFlippedSphere(30, 5), 24, 0, Wgc::Off, false, false, Mode::Compact},
 	};
 	std::vector<SmallFile> files;
 	for (const Recipe& r : recipes) {
@@ -139,10 +142,10 @@ std::vector<SmallFile> smallFiles()
 		o.bits      = r.bits;
 		o.lifting   = r.lifting;
 		o.wgc       = r.wgc;
-		o.mode      = r.mode;
-		o.effort    = r.effort;
 		o.keepOrder = r.keepOrder;
 		o.exact     = r.exact;
+		o.mode      = r.mode;
+		o.effort    = r.effort;
 		auto file   = encode(r.mesh, o);
 		if (!file.ok())
 			throw std::runtime_error(file.status().what);

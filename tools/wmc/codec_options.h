@@ -18,17 +18,17 @@ namespace wavemesh::tool {
 /// Options of encode, report and bench, as typed.
 struct CodecOptions
 {
-	int bits            = 12;
-	double step         = 0;
-	std::string mode    = "compact";
-	int effort          = 2;
-	std::string lifting = "0";
+	int bits             = 12;
+	double step          = 0;
+	std::string mode     = "compact";
+	int effort           = 2;
+	std::string lifting  = "0";
 	std::string optimize = "balanced";
-	std::string wgc     = "auto";
-	double sharpness    = 0.3;
-	double deviation    = 0.25;
-	bool exact          = false;
-	bool keepOrder      = false;
+	std::string wgc      = "auto";
+	double sharpness     = 0.3;
+	double deviation     = 0.25;
+	bool exact           = false;
+	bool keepOrder       = false;
 
 	void addTo(CLI::App& command);
 	EncodeOptions toEncodeOptions() const;

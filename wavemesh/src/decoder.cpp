@@ -138,6 +138,14 @@ Status Decoder::State::readBase()
 	        .read(row(0).vertices, row(0).faces);
 	if (!base.ok())
 		return base.status().code == StatusCode::Truncated ? ended("the base mesh") : base.status();
+	// Everything that follows relies on cells being cells.
+	if (head.mode == Mode::Compact) {
+		const std::int32_t end = 1 << (head.lattice.bits - row(0).shift);
+		for (const LatticePoint& p : base->positions)
+			for (const std::int32_t x : p)
+				if (x < 0 || x >= end)
+					return corrupt("has a vertex outside the lattice");
+	}
 	table     = std::move(base->table);
 	positions = std::move(base->positions);
 	glue      = std::move(base->glue);
@@ -376,6 +384,8 @@ MeshData Decoder::mesh() const
 			out.triangles[f][k] = s.table.vertex[3 * f + k];
 	if (s.attributes)
 		out.attributes = s.attributes->ofLevel();
+	if (!out.attributes.empty())
+		out.textures = s.attributes->textures();
 	return out;
 }
 

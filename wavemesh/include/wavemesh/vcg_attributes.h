@@ -9,6 +9,7 @@
 #include <vcg/complex/complex.h>
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -77,6 +78,24 @@ void add(MeshData& data, Attribute a, const Elements& elements, Read read)
 		if (!e.IsD())
 			read(e, a.values);
 	data.attributes.push_back(std::move(a));
+}
+
+/// The number as a `Number`; a file may have any: what an integer type cannot hold becomes its
+/// nearest, not-a-number 0.
+template <class Number>
+Number narrowed(double value)
+{
+	if constexpr (std::is_integral_v<Number>) {
+		constexpr double low = std::numeric_limits<Number>::min();
+		constexpr double top = std::numeric_limits<Number>::max();
+		return value >= low && value <= top ? static_cast<Number>(value)
+		                                    : static_cast<Number>(
+		                                          value > top   ? top
+		                                          : value < low ? low
+		                                                        : 0);
+	}
+	else
+		return static_cast<Number>(value);
 }
 
 template <class Values, class Numbers>
@@ -247,13 +266,52 @@ template <class Number>
 void assign(const double* row, int count, Number&& number)
 {
 	for (int k = 0; k < count; ++k)
-		number[k] = static_cast<std::decay_t<decltype(number[k])>>(row[k]);
+		number[k] = narrowed<std::decay_t<decltype(number[k])>>(row[k]);
+}
+
+/// Does `all`, a mesh's attributes of some element, have one of this name?
+template <class All>
+bool isTaken(const All& all, const std::string& name)
+{
+	for (const auto& one : all)
+		if (!name.empty() && one._name == name)
+			return true;
+	return false;
+}
+
+/// A user-defined attribute of numbers of type T. VCG would take one of the same name and another
+/// type for it: the first is kept.
+template <class T, class MeshType>
+void setCustomOfVertices(const Attribute& a, MeshType& m)
+{
+	using Allocator = vcg::tri::Allocator<MeshType>;
+	auto handle     = Allocator::template FindPerVertexAttribute<T>(m, a.name);
+	if (!Allocator::IsValidHandle(m, handle)) {
+		if (isTaken(m.vert_attr, a.name))
+			return;
+		handle = Allocator::template AddPerVertexAttribute<T>(m, a.name);
+	}
+	for (std::size_t v = 0; v < m.vert.size(); ++v)
+		handle[v] = static_cast<T>(a.values[v]);
+}
+
+template <class T, class MeshType>
+void setCustomOfFaces(const Attribute& a, MeshType& m)
+{
+	using Allocator = vcg::tri::Allocator<MeshType>;
+	auto handle     = Allocator::template FindPerFaceAttribute<T>(m, a.name);
+	if (!Allocator::IsValidHandle(m, handle)) {
+		if (isTaken(m.face_attr, a.name))
+			return;
+		handle = Allocator::template AddPerFaceAttribute<T>(m, a.name);
+	}
+	for (std::size_t f = 0; f < m.face.size(); ++f)
+		handle[f] = static_cast<T>(a.values[f]);
 }
 
 template <class MeshType>
 void setOfVertices(const Attribute& a, MeshType& m)
 {
-	using Allocator  = vcg::tri::Allocator<MeshType>;
 	using Quality    = typename MeshType::VertexType::QualityType;
 	using Radius     = typename MeshType::VertexType::RadiusType;
 	const auto width = std::size_t(a.components);
@@ -273,26 +331,19 @@ void setOfVertices(const Attribute& a, MeshType& m)
 		each([](auto& v, const double* row) {
 			v.T().U() = static_cast<std::decay_t<decltype(v.T().U())>>(row[0]);
 			v.T().V() = static_cast<std::decay_t<decltype(v.T().V())>>(row[1]);
-			v.T().N() = static_cast<short>(row[2]);
+			v.T().N() = narrowed<short>(row[2]);
 		});
 	else if (a.kind == AttributeKind::Selected && width == 1)
 		each([](auto& v, const double* row) { row[0] != 0 ? v.SetS() : v.ClearS(); });
-	else if (a.kind == AttributeKind::Custom && width == 1 && a.type == NumberType::Float) {
-		auto handle = Allocator::template GetPerVertexAttribute<float>(m, a.name);
-		for (std::size_t v = 0; v < m.vert.size(); ++v)
-			handle[v] = float(a.values[v]);
-	}
-	else if (a.kind == AttributeKind::Custom && width == 1) {
-		auto handle = Allocator::template GetPerVertexAttribute<double>(m, a.name);
-		for (std::size_t v = 0; v < m.vert.size(); ++v)
-			handle[v] = a.values[v];
-	}
+	else if (a.kind == AttributeKind::Custom && width == 1 && a.type == NumberType::Float)
+		setCustomOfVertices<float>(a, m);
+	else if (a.kind == AttributeKind::Custom && width == 1)
+		setCustomOfVertices<double>(a, m);
 }
 
 template <class MeshType>
 void setOfFaces(const Attribute& a, MeshType& m)
 {
-	using Allocator  = vcg::tri::Allocator<MeshType>;
 	using Quality    = typename MeshType::FaceType::QualityType;
 	const auto width = std::size_t(a.components);
 	const auto each  = [&](auto set) {
@@ -310,18 +361,12 @@ void setOfFaces(const Attribute& a, MeshType& m)
 	else if (a.kind == AttributeKind::FauxEdges && width == 1)
 		each([](auto& f, const double* row) {
 			for (int k = 0; k < 3; ++k)
-				(int(row[0]) >> k) & 1 ? f.SetF(k) : f.ClearF(k);
+				(narrowed<int>(row[0]) >> k) & 1 ? f.SetF(k) : f.ClearF(k);
 		});
-	else if (a.kind == AttributeKind::Custom && width == 1 && a.type == NumberType::Float) {
-		auto handle = Allocator::template GetPerFaceAttribute<float>(m, a.name);
-		for (std::size_t f = 0; f < m.face.size(); ++f)
-			handle[f] = float(a.values[f]);
-	}
-	else if (a.kind == AttributeKind::Custom && width == 1) {
-		auto handle = Allocator::template GetPerFaceAttribute<double>(m, a.name);
-		for (std::size_t f = 0; f < m.face.size(); ++f)
-			handle[f] = a.values[f];
-	}
+	else if (a.kind == AttributeKind::Custom && width == 1 && a.type == NumberType::Float)
+		setCustomOfFaces<float>(a, m);
+	else if (a.kind == AttributeKind::Custom && width == 1)
+		setCustomOfFaces<double>(a, m);
 }
 
 template <class MeshType>
@@ -335,7 +380,7 @@ void setOfCorners(const Attribute& a, MeshType& m)
 			auto& t           = m.face[f].WT(k);
 			t.U()             = static_cast<std::decay_t<decltype(t.U())>>(row[0]);
 			t.V()             = static_cast<std::decay_t<decltype(t.V())>>(row[1]);
-			t.N()             = static_cast<short>(row[2]);
+			t.N()             = narrowed<short>(row[2]);
 		}
 }
 

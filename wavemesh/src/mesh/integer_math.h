@@ -35,7 +35,7 @@ inline int bitLength(std::uint64_t x)
 inline int leadingDigit(std::uint32_t x)
 {
 #if defined(__GNUC__)
-	return 31 - __builtin_clz(x);
+	return __builtin_clz(x) ^ 31; // one instruction on x86, as a difference three
 #else
 	return bitLength(x) - 1;
 #endif
