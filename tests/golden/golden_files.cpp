@@ -52,21 +52,23 @@ namespace {
 Bytes fileOf(const MeshData& mesh, int bits, int lifting, Wgc wgc, double step = 0, int effort = 2)
 {
 	EncodeOptions o;
-	o.bits    = bits;
-	o.lifting = lifting;
-	o.wgc     = wgc;
-	o.step    = step;
-	o.effort  = effort;
-	o.mode    = Mode::Classic;
+	o.optimize = Optimize::Size; // files of every kind, whatever the default is good for
+	o.bits     = bits;
+	o.lifting  = lifting;
+	o.wgc      = wgc;
+	o.step     = step;
+	o.effort   = effort;
+	o.mode     = Mode::Classic;
 	return encode(mesh, o).value().bytes;
 }
 
 EncodedMesh compactFileOf(const MeshData& mesh, int bits, int effort = 2)
 {
 	EncodeOptions o;
-	o.mode   = Mode::Compact;
-	o.bits   = bits;
-	o.effort = effort;
+	o.optimize = Optimize::Size;
+	o.mode     = Mode::Compact;
+	o.bits     = bits;
+	o.effort   = effort;
 	return encode(mesh, o).value();
 }
 

@@ -66,7 +66,7 @@ TEST(Encode, NeverModifiesItsInput)
 	EXPECT_EQ(mesh.triangles, copy.triangles);
 }
 
-TEST(Encode, WgcAuto_IsTheSmallerOfBothInClassicFilesAndAtEffort3)
+TEST(Encode, WgcAuto_ForSize_IsTheSmallerOfBothInClassicFilesAndAtEffort3)
 {
 	for (const MeshData& mesh :
 	     {makeStarPrism(16, 20), makeBumpySphere(400, 122), makeHoledPlate(2, 4)})
@@ -74,6 +74,7 @@ TEST(Encode, WgcAuto_IsTheSmallerOfBothInClassicFilesAndAtEffort3)
 			EncodeOptions o;
 			o.mode          = mode;
 			o.effort        = mode == Mode::Classic ? 2 : 3;
+			o.optimize      = Optimize::Size;
 			const auto size = [&](Wgc wgc) {
 				o.wgc = wgc;
 				return encode(mesh, o)->bytes.size();
@@ -83,7 +84,7 @@ TEST(Encode, WgcAuto_IsTheSmallerOfBothInClassicFilesAndAtEffort3)
 		}
 }
 
-TEST(Encode, WgcAuto_IsOffInCompactFilesBelowEffort3AndForLevels)
+TEST(Encode, WgcAuto_IsOffInCompactFilesBelowEffort3AndForLevelsButOnForBalanced)
 {
 	const MeshData mesh = makeStarPrism(16, 20);
 	const auto bytes    = [&](int effort, Optimize optimize, Wgc wgc) {
@@ -95,8 +96,11 @@ TEST(Encode, WgcAuto_IsOffInCompactFilesBelowEffort3AndForLevels)
 	};
 	for (const int effort : {1, 2})
 		EXPECT_EQ(
+		    bytes(effort, Optimize::Size, Wgc::Auto), bytes(effort, Optimize::Size, Wgc::Off));
+	for (const int effort : {1, 2, 3})
+		EXPECT_EQ(
 		    bytes(effort, Optimize::Balanced, Wgc::Auto),
-		    bytes(effort, Optimize::Balanced, Wgc::Off));
+		    bytes(effort, Optimize::Balanced, Wgc::On));
 	EXPECT_EQ(bytes(3, Optimize::Levels, Wgc::Auto), bytes(3, Optimize::Levels, Wgc::Off));
 }
 

@@ -196,7 +196,10 @@ TEST_P(EveryChange, OneByteMissingOrTwice_IsNoticed)
 		less.erase(less.begin() + static_cast<std::ptrdiff_t>(at));
 		more.insert(more.begin() + static_cast<std::ptrdiff_t>(at), file_[at]);
 		ASSERT_EQ(judge(less, true), "") << at;
-		ASSERT_EQ(judge(more, true), "") << at;
+		// Where the rest of the file is this byte again, it is the file with a byte behind its end.
+		if (!std::equal(file_.begin(), file_.end(), more.begin())) {
+			ASSERT_EQ(judge(more, true), "") << at;
+		}
 	}
 }
 

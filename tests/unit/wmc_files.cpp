@@ -107,8 +107,9 @@ std::vector<SmallFile> smallFiles()
 		int bits, lifting;
 		Wgc wgc;
 		bool keepOrder = false, exact = false;
-		Mode mode  = Mode::Classic;
-		int effort = 2;
+		Mode mode         = Mode::Classic;
+		int effort        = 2;
+		Optimize optimize = Optimize::Balanced;
 	};
 	const Recipe recipes[] = {
 	    {"triangle", makeTriangle(), 8, kLiftingOff, Wgc::Off},
@@ -129,9 +130,9 @@ std::vector<SmallFile> smallFiles()
 	    {"compact_open", joined({makeTerrain(30, 1), moved(makeStrip(5), 3, 0, 0)}), 10, 0,
 	     Wgc::Off, false, false, Mode::Compact, 3},
 	    {"compact_repeats", punch(makeFlatGrid(6, 6), 3, 1), 14, 0, Wgc::Off, false, false,
-	     Mode::Compact},
+	     Mode::Compact, 2, Optimize::Size},
 	    {"compact_repeats_effort_3", joined({makeFlatGrid(5, 5), makeCube()}), 16, 0, Wgc::Auto,
-	     false, false, Mode::Compact, 3},
+	     false, false, Mode::Compact, 3, Optimize::Size},
 	    {"compact_every_promise", withColours(makeNoManifold()), 8, 0, Wgc::Off, true, true,
 	     Mode::Compact},
 	    {"compact_24_bits", makeFlippedSphere(30, 5), 24, 0, Wgc::Off, false, false, Mode::Compact},
@@ -144,6 +145,7 @@ std::vector<SmallFile> smallFiles()
 		o.wgc       = r.wgc;
 		o.keepOrder = r.keepOrder;
 		o.exact     = r.exact;
+		o.optimize  = r.optimize;
 		o.mode      = r.mode;
 		o.effort    = r.effort;
 		auto file   = encode(r.mesh, o);

@@ -147,7 +147,7 @@ private:
 
 	bool tryCompact(const Levels& levels, bool wgc, const Stage& stage)
 	{
-		const std::vector<ScheduleOptions> tries = schedulesFor(levels);
+		const std::vector<ScheduleOptions> tries = schedulesFor();
 		for (std::size_t i = 0; i < tries.size(); ++i) {
 			const double part = 1.0 / double(tries.size());
 			Head head         = headOf(levels, Mode::Compact, wgc);
@@ -162,7 +162,7 @@ private:
 		return true;
 	}
 
-	std::vector<ScheduleOptions> schedulesFor(const Levels& levels) const
+	std::vector<ScheduleOptions> schedulesFor() const
 	{
 		constexpr int kAll  = ScheduleOptions::kAll;
 		const double errors = cellErrorsFor(options_.optimize, repeats_);
