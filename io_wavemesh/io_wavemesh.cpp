@@ -287,14 +287,19 @@ void IOWavemeshPlugin::save(
 		if (!lost.isEmpty())
 			log(GLLogStream::WARNING, ("Not saved: " + lost.join(", ") + ".").toStdString());
 		const double bytes     = double(encoded->bytes.size());
+		const double ofShape   = bytes - double(encoded->info.features.attributeBytes);
 		const double binaryPly = 12.0 * layer.cm.vn + 13.0 * layer.cm.fn;
 		log(QString("Saved %1: %2 in %3 levels, %4 bits per vertex, 1/%5 of a binary PLY, %6 s.")
 		        .arg(QFileInfo(fileName).fileName(), byteCount(encoded->bytes.size()))
 		        .arg(encoded->info.levels.size())
 		        .arg(8 * bytes / layer.cm.vn, 0, 'f', 2)
-		        .arg(binaryPly / bytes, 0, 'f', 1)
+		        .arg(binaryPly / ofShape, 0, 'f', 1)
 		        .arg(watch.seconds(), 0, 'f', 2)
 		        .toStdString());
+		if (encoded->info.features.attributes)
+			log(("Of these, colours and all else besides the shape: " +
+			     byteCount(encoded->info.features.attributeBytes) + ", not in the ratio to a PLY.")
+			        .toStdString());
 	});
 }
 

@@ -239,6 +239,26 @@ TEST(IoAttributes, WhatIsNotChosenOrNotThereIsNotSaved)
 	EXPECT_EQ(contents(scratch("attributes.wmc")), contents(scratch("plain.wmc")));
 }
 
+TEST(IoAttributes, TheLogNamesWhatTheLayerHasAndTheFileDoesNot)
+{
+	MeshLabHost& host  = freshHost();
+	const auto warning = [&](std::optional<int> mask) {
+		host.document().Log.clear();
+		host.save(scratch("logged.wmc"), {}, mask);
+		QStringList lines;
+		host.document().Log.print(lines);
+		const QStringList found = lines.filter("Not saved");
+		return found.isEmpty() ? QString() : found.front();
+	};
+	MeshModel& layer = openIsland(host);
+	EXPECT_EQ(warning({}), QString());
+	colourVertices(layer, 100);
+	texture(layer);
+	EXPECT_EQ(warning({}), QString());
+	EXPECT_TRUE(warning(Mask::IOM_VERTCOLOR).contains("wedge texture coordinates"));
+	EXPECT_FALSE(warning(Mask::IOM_VERTCOLOR).contains("colours"));
+}
+
 TEST(IoAttributes, EveryLevelHasTheColoursOfItsVertices)
 {
 	MeshLabHost& host = freshHost();
