@@ -1870,6 +1870,8 @@ class Compact:
                     self.set_cell(v, self.cell[w])
                     self.record[v] = self.record[w]
         except Exhausted:
+            if not coded:                                   # nothing new: the level before (11.2)
+                raise
             whole = False
         for v in range(mesh.vertices):
             if not self.known[v]:

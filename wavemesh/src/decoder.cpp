@@ -216,10 +216,17 @@ Status Decoder::State::readPrecise()
 {
 	if (!compactModels)
 		compactModels = std::make_unique<CompactModels>();
-	const int shift = row(level + 1).shift;
-	PositionSyntax<RangeDecoder>(coder, *compactModels, table, head.lattice.bits, glue)
-	    .codeBits(shift, row(level).shift - shift, positions, {});
+	const int shift = row(level + 1).shift, bits = row(level).shift - shift;
+	const Index whole =
+	    PositionSyntax<RangeDecoder>(coder, *compactModels, table, head.lattice.bits, glue)
+	        .codeBits(shift, bits, positions, {});
 	const Status cut = coder.exhausted() ? ended("the positions") : Status();
+	if (!cut.ok() && whole == 0) { // nothing new: the level before, as it was
+		for (LatticePoint& p : positions)
+			for (std::int32_t& x : p)
+				x >>= bits;
+		return cut;
+	}
 	if (cut.ok() || cut.code == StatusCode::Truncated)
 		++level;
 	return cut;
