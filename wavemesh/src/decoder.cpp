@@ -204,10 +204,14 @@ Status Decoder::State::readChildren(const Refinement& refinement, const CornerTa
 {
 	const Parents parents = parentsOf(table, refinement);
 	if (!compactModels)
-		compactModels = std::make_unique<CompactModels>();
+		compactModels = std::make_unique<CompactModels>(head.predictors);
 	positions.resize(child.vertexCount, {0, 0, 0});
-	PositionSyntax<RangeDecoder>(coder, *compactModels, child, head.lattice.bits, glue)
-	    .codeChildren(table, refinement, parents, row(level + 1).shift, positions);
+	withPositionSyntax<RangeDecoder>(
+	    head.predictors,
+	    [&](auto syntax) {
+		    syntax.codeChildren(table, refinement, parents, row(level + 1).shift, positions);
+	    },
+	    coder, *compactModels, child, head.lattice.bits, glue);
 	return coder.exhausted() ? ended("the positions") : Status();
 }
 
@@ -215,11 +219,13 @@ Status Decoder::State::readChildren(const Refinement& refinement, const CornerTa
 Status Decoder::State::readPrecise()
 {
 	if (!compactModels)
-		compactModels = std::make_unique<CompactModels>();
+		compactModels = std::make_unique<CompactModels>(head.predictors);
 	const int shift = row(level + 1).shift, bits = row(level).shift - shift;
 	const Index whole =
-	    PositionSyntax<RangeDecoder>(coder, *compactModels, table, head.lattice.bits, glue)
-	        .codeBits(shift, bits, positions, {});
+	    withPositionSyntax<RangeDecoder>(
+	        head.predictors,
+	        [&](auto syntax) { return syntax.codeBits(shift, bits, positions, {}); }, coder,
+	        *compactModels, table, head.lattice.bits, glue);
 	const Status cut = coder.exhausted() ? ended("the positions") : Status();
 	if (!cut.ok() && whole == 0) { // nothing new: the level before, as it was
 		for (LatticePoint& p : positions)

@@ -96,21 +96,16 @@ public:
 	Result<EncodedMesh> run()
 	{
 		const bool classic = options_.mode == Mode::Classic || options_.effort == 1;
-		// Balanced wants sharp edges kept in the one step that is left to connectivity; with Levels
-		// there is none.
-		const bool both = options_.wgc == Wgc::Auto && options_.optimize == Optimize::Size &&
-		                  (options_.mode == Mode::Classic || options_.effort == 3);
-		const bool preferred = options_.wgc == Wgc::On || (options_.wgc == Wgc::Auto &&
-		                                                   options_.optimize == Optimize::Balanced);
 		const Stage whole(options_.progress, 0, 1);
-		for (const bool wgc : {false, true}) {
-			if (!both && wgc != preferred)
-				continue;
-			const Stage stage = both ? whole.part(wgc ? 0.5 : 0, wgc ? 1 : 0.5) : whole;
+		const std::vector<Coarsening> ways = coarsenings();
+		for (std::size_t i = 0; i < ways.size(); ++i) {
+			const double part = 1.0 / double(ways.size());
+			const Stage stage = whole.part(double(i) * part, double(i + 1) * part);
+			const bool wgc    = ways[i].wgc;
 			const GeometricalCriterion criterion {
 			    wgc, options_.wgcSharpness, options_.wgcDeviation};
 			std::optional<Levels> levels =
-			    makeLevels(mesh_, criterion, steeringFor(options_.optimize), stage.part(0, 0.4));
+			    makeLevels(mesh_, criterion, steeringFor(ways[i].aim), stage.part(0, 0.4));
 			if (!levels)
 				return cancelled();
 			if (!(classic ? tryClassic(*levels, wgc, stage.part(0.4, 1))
@@ -121,6 +116,31 @@ public:
 	}
 
 private:
+	static constexpr std::size_t kSmall = 4096; ///< vertices; their time is nothing
+	bool isSmall() const { return mesh_.positions.size() < kSmall; }
+	static constexpr std::size_t kLarge = 16384; ///< vertices; here speed counts
+	bool isLarge() const { return mesh_.positions.size() >= kLarge; }
+
+	/// One way to make levels.
+	struct Coarsening
+	{
+		Optimize aim;
+		bool wgc;
+	};
+
+	std::vector<Coarsening> coarsenings() const
+	{
+		const Optimize aim = options_.optimize;
+		if (options_.wgc != Wgc::Auto)
+			return {{aim, options_.wgc == Wgc::On}};
+		std::vector<Coarsening> all {{aim, false}};
+		if (aim == Optimize::Size && (options_.mode == Mode::Classic || options_.effort == 3))
+			all.push_back({aim, true});
+		if (all.size() > 1 && options_.mode == Mode::Compact && isSmall())
+			all.push_back({Optimize::Balanced, false});
+		return all;
+	}
+
 	Head headOf(const Levels& levels, Mode mode, bool wgc) const
 	{
 		Head head;
@@ -147,12 +167,13 @@ private:
 
 	bool tryCompact(const Levels& levels, bool wgc, const Stage& stage)
 	{
-		const std::vector<ScheduleOptions> tries = schedulesFor();
+		const std::vector<Plan> tries = plans();
 		for (std::size_t i = 0; i < tries.size(); ++i) {
 			const double part = 1.0 / double(tries.size());
 			Head head         = headOf(levels, Mode::Compact, wgc);
+			head.predictors   = tries[i].predictors;
 			std::vector<std::uint8_t> chunks;
-			const Schedule schedule = makeSchedule(levels, mesh_.lattice.bits, tries[i]);
+			const Schedule schedule = makeSchedule(levels, mesh_.lattice.bits, tries[i].schedule);
 			if (!writeCompact(
 			        levels, schedule, head, chunks,
 			        stage.part(double(i) * part, double(i + 1) * part)))
@@ -162,19 +183,44 @@ private:
 		return true;
 	}
 
-	std::vector<ScheduleOptions> schedulesFor() const
+	/// One way to code positions.
+	struct Plan
 	{
-		constexpr int kAll  = ScheduleOptions::kAll;
-		const double errors = cellErrorsFor(options_.optimize, repeats_);
-		const int last      = repeats_ ? kAll : 2;
-		if (options_.effort < 3)
-			return {{8, 2, last, errors}};
-		return {
-		    {8, 1, 1, errors},
-		    {8, 1, 2, errors},
-		    {8, 1, kAll, errors},
-		    {4, 1, last, errors},
-		    {12, 1, last, errors}};
+		ScheduleOptions schedule;
+		PredictorSet predictors;
+	};
+
+	std::vector<Plan> plans() const
+	{
+		constexpr int kAll     = ScheduleOptions::kAll;
+		const double smooth    = cellErrorsFor(options_.optimize, false);
+		const double repeating = cellErrorsFor(options_.optimize, true);
+		const PredictorSet all = PredictorSet::All, repeats = PredictorSet::Repeats;
+		if (options_.effort < 3) {
+			if (isSmall())
+				return {{{8, 1, 1, smooth}, all}, {{8, 1, kAll, repeating}, repeats}};
+			if (repeats_)
+				return {{{8, 2, kAll, repeating}, repeats}};
+			return {{{8, 2, 2, smooth}, isLarge() ? PredictorSet::Few : all}};
+		}
+		std::vector<Plan> ways;
+		const auto add = [&ways](PredictorSet set, std::initializer_list<ScheduleOptions> some) {
+			for (const ScheduleOptions& schedule : some)
+				ways.push_back({schedule, set});
+		};
+		if (isSmall() || !repeats_)
+			add(all, {{8, 1, 1, smooth},
+			          {8, 1, 2, smooth},
+			          {8, 1, kAll, smooth},
+			          {4, 1, 2, smooth},
+			          {12, 1, 2, smooth}});
+		if (isSmall() || repeats_)
+			add(repeats, {{8, 1, 1, smooth},
+			              {8, 1, kAll, smooth},
+			              {4, 1, kAll, repeating},
+			              {12, 1, kAll, repeating},
+			              {8, 1, kAll, cellErrorsFor(Optimize::Balanced, true)}});
+		return ways;
 	}
 
 	/// Of all vertices but the base mesh's, if anything asks for them.

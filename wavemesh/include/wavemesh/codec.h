@@ -31,8 +31,8 @@ enum class Mode : std::uint8_t {
 enum class Wgc : std::uint8_t {
 	Off  = 0, ///< geometry-blind coarsening
 	On   = 1,
-	Auto = 2, ///< Size: both are encoded and the smaller file is kept (Compact: with effort 3 only,
-	          ///< else Off). Balanced: On
+	Auto = 2, ///< Optimize::Size: both are encoded and the smaller file is kept (Compact: with
+	          ///< effort 3 only); else Off
 };
 
 /// What the choice of the vertices that each step removes is good for. Sizes and errors of all

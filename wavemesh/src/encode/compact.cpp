@@ -71,7 +71,7 @@ bool writeCompact(
 
 	LevelWriter writer(head, chunks);
 	ConnectivityModels connectivityModels(head.rich ? Contexts::Rich : Contexts::Fast);
-	const auto models = std::make_unique<CompactModels>();
+	const auto models = std::make_unique<CompactModels>(head.predictors);
 	std::size_t split = 0; // levels of connectivity so far, less the base
 	int shift         = schedule.baseShift;
 	std::vector<LatticePoint> cells;
@@ -107,17 +107,21 @@ bool writeCompact(
 			writer.connectivityEnds();
 			const CornerTable& child = levels.table(++split);
 			appendCells(truth, cells.size(), child.vertexCount, shift, cells);
-			PositionSyntax<RangeEncoder>(writer.coder(), *models, child, bits, levels.glue)
-			    .codeChildren(level.parent, refinement, parents[split - 1], shift, cells);
+			withPositionSyntax<RangeEncoder>(
+			    head.predictors,
+			    [&](auto syntax) {
+				    syntax.codeChildren(level.parent, refinement, parents[split - 1], shift, cells);
+			    },
+			    writer.coder(), *models, child, bits, levels.glue);
 		}
 		else {
 			shift -= step.bits;
 			std::vector<LatticePoint> finer;
 			finer.reserve(cells.size());
 			appendCells(truth, 0, cells.size(), shift, finer);
-			PositionSyntax<RangeEncoder>(
-			    writer.coder(), *models, levels.table(split), bits, levels.glue)
-			    .codeBits(shift, step.bits, cells, finer);
+			withPositionSyntax<RangeEncoder>(
+			    head.predictors, [&](auto syntax) { syntax.codeBits(shift, step.bits, cells, finer); },
+			    writer.coder(), *models, levels.table(split), bits, levels.glue);
 		}
 		endLevel(step.kind, i + 1);
 		if (!stage(double(i + 1) / double(schedule.steps.size())))
