@@ -52,7 +52,8 @@ struct Decoder::State
 	Chunk findAttributes() const;
 	Status advance();
 	Status ended(const char* where) const;
-	Status corrupt(const char* what) const;
+	Status corrupt(const std::string& what) const;
+	Status wrongSize(std::uint32_t found, const char* elements, std::uint32_t declared) const;
 };
 
 namespace {
@@ -79,13 +80,21 @@ Status Decoder::State::ended(const char* where) const
 	    size};
 }
 
-Status Decoder::State::corrupt(const char* what) const
+Status Decoder::State::corrupt(const std::string& what) const
 {
 	return {
 	    StatusCode::Corrupt,
 	    levelName(level + 1) + " " + what + " (chunk at offset " +
 	        std::to_string(std::size_t(chunk.payload - data)) + ")",
 	    std::uint64_t(chunk.payload - data)};
+}
+
+Status
+Decoder::State::wrongSize(std::uint32_t found, const char* elements, std::uint32_t declared) const
+{
+	return corrupt(
+	    "has " + std::to_string(found) + " " + elements + " but the head declares " +
+	    std::to_string(declared));
 }
 
 /// Finds the next chunk that must not be skipped, which must be of this type.
@@ -168,10 +177,10 @@ Status Decoder::State::readSplit()
 	if (coder.exhausted())
 		return ended("the connectivity");
 	if (refinement.childVertices != target.vertices)
-		return corrupt("does not have the number of vertices that the head declares");
+		return wrongSize(refinement.childVertices, "vertices", target.vertices);
 	CornerTable child = refine(table, refinement);
 	if (child.faceCount() != target.faces)
-		return corrupt("does not have the number of faces that the head declares");
+		return wrongSize(child.faceCount(), "faces", target.faces);
 	const Status status =
 	    head.mode == Mode::Classic ? readDetails(refinement) : readChildren(refinement, child);
 	if (status.ok() || status.code == StatusCode::Truncated) {
