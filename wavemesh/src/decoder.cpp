@@ -58,6 +58,9 @@ struct Decoder::State
 
 namespace {
 
+/// So many faces may be in any number of levels.
+constexpr std::uint64_t kFewFaces = 1000;
+
 std::string levelName(int level)
 {
 	return "level " + std::to_string(level);
@@ -317,6 +320,43 @@ Status Decoder::State::openFeature(Feature feature)
 	return {};
 }
 
+namespace {
+
+Status overLimit(std::uint64_t count, const char* what, const char* name, std::uint64_t limit)
+{
+	return {
+	    StatusCode::LimitExceeded, "the file declares " + std::to_string(count) + " " + what +
+	                                   ", more than the limit of " + std::to_string(limit) + " (" +
+	                                   name + ")"};
+}
+
+/// Before memory or time is taken.
+Status checkLimits(const Head& head, const StreamInfo& info, const DecodeLimits& limits)
+{
+	const LevelRow& finest       = head.rows.back();
+	const std::uint32_t vertices = std::max(info.vertices, finest.vertices);
+	const std::uint32_t faces    = std::max(info.faces, finest.faces);
+	if (vertices > limits.maxVertices)
+		return overLimit(vertices, "vertices", "maxVertices", limits.maxVertices);
+	if (faces > limits.maxFaces)
+		return overLimit(faces, "faces", "maxFaces", limits.maxFaces);
+	const std::uint64_t values = info.features.attributeValues;
+	if (values > limits.maxAttributeValues)
+		return overLimit(
+		    values, "numbers in attributes", "maxAttributeValues", limits.maxAttributeValues);
+	// Levels that hardly grow would make decoding take many times what its mesh is worth.
+	std::uint64_t inLevels = 0;
+	for (const LevelRow& row : head.rows)
+		inLevels += row.faces;
+	const std::uint64_t share = inLevels / (std::uint64_t(finest.faces) + kFewFaces);
+	if (share > limits.maxLevelShare)
+		return overLimit(
+		    share, "times its faces in all levels together", "maxLevelShare", limits.maxLevelShare);
+	return {};
+}
+
+} // namespace
+
 Decoder::Decoder(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Decoder::Decoder(Decoder&&) noexcept            = default;
 Decoder& Decoder::operator=(Decoder&&) noexcept = default;
@@ -340,26 +380,13 @@ Decoder::open(const std::uint8_t* data, std::size_t size, const DecodeLimits& li
 	auto head       = readHead(data, size, end);
 	if (!head.ok())
 		return head.status();
-	state->data                  = data;
-	state->size                  = size;
-	state->head                  = std::move(*head);
-	state->info                  = describe(state->head, end);
-	state->offset                = end;
-	const LevelRow& finest       = state->head.rows.back();
-	const std::uint32_t vertices = std::max(state->info.vertices, finest.vertices);
-	const std::uint32_t faces    = std::max(state->info.faces, finest.faces);
-	if (vertices > limits.maxVertices || faces > limits.maxFaces)
-		return Status(
-		    StatusCode::LimitExceeded,
-		    "the file declares " + std::to_string(vertices) + " vertices and " +
-		        std::to_string(faces) + " faces, more than the limit of " +
-		        std::to_string(limits.maxVertices) + " and " + std::to_string(limits.maxFaces));
-	if (state->info.features.attributeValues > limits.maxAttributeValues)
-		return Status(
-		    StatusCode::LimitExceeded, "the file declares " +
-		                                   std::to_string(state->info.features.attributeValues) +
-		                                   " numbers in attributes, more than the limit of " +
-		                                   std::to_string(limits.maxAttributeValues));
+	state->data   = data;
+	state->size   = size;
+	state->head   = std::move(*head);
+	state->info   = describe(state->head, end);
+	state->offset = end;
+	if (Status over = checkLimits(state->head, state->info, limits); !over.ok())
+		return over;
 	return Decoder(std::move(state));
 }
 
