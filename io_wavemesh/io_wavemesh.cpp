@@ -65,6 +65,16 @@ int fillLayer(MeshModel& layer, const MeshData& data, int level, SharedBytes str
 	return mask;
 }
 
+/// Throws what is wrong with a file, if anything.
+void requireOpened(const Status& status, const QString& fileName)
+{
+	if (status.code == StatusCode::LimitExceeded)
+		throw MLException(
+		    "Cannot open " + fileName + ": " + explain(status) +
+		    " The command wmc decode has options to raise this limit.");
+	require(status, "Cannot open " + fileName);
+}
+
 /// "18 432 bytes" and the like.
 QString byteCount(std::uint64_t bytes)
 {
@@ -148,7 +158,7 @@ void IOWavemeshPlugin::open(
 		const auto bytes    = readWmc(fileName, request);
 		auto decoder        = Decoder::open(bytes->data(), bytes->size());
 		const auto progress = progressBar(cb, "Decoding levels...");
-		require(decoder.status(), "Cannot open " + fileName);
+		requireOpened(decoder.status(), fileName);
 		const int finest = decoder->info().finestLevel();
 		for (MeshModel* layer : layers) {
 			require(decoder->advance(), "Cannot open " + fileName);
@@ -200,7 +210,7 @@ void IOWavemeshPlugin::open(
 		options.progress   = progressBar(cb, "Decoding...");
 		const auto decoded = decode(bytes->data(), bytes->size(), options);
 		if (!decoded.hasValue())
-			require(decoded.status(), "Cannot open " + fileName);
+			requireOpened(decoded.status(), fileName);
 
 		const StreamInfo& info = decoded->info;
 		const bool whole       = decoded->level < wholeLevels(info, bytes->size());

@@ -193,6 +193,13 @@ EncodedMesh encodeMesh(
 	return std::move(encoded.value());
 }
 
+DecodeOptions ofOwnFile()
+{
+	DecodeOptions options;
+	options.limits = DecodeLimits::none();
+	return options;
+}
+
 Result<DecodedMesh>
 decodeBytes(const std::string& path, const Bytes& bytes, DecodeOptions options, double* seconds)
 {
@@ -202,6 +209,9 @@ decodeBytes(const std::string& path, const Bytes& bytes, DecodeOptions options, 
 	auto decoded = decode(bytes.data(), bytes.size(), options);
 	if (seconds)
 		*seconds = watch.seconds();
+	if (decoded.status().code == StatusCode::LimitExceeded)
+		throw Failure(
+		    messageOf(path, decoded.status()) + "; wmc decode has options to raise it (--max-...)");
 	if (!decoded.hasValue())
 		throw Failure(messageOf(path, decoded.status()));
 	return decoded;

@@ -7,6 +7,7 @@
 
 #include <wavemesh/codec.h>
 
+#include <algorithm>
 #include <limits>
 #include <new>
 
@@ -64,9 +65,11 @@ double cellErrorsFor(Optimize optimize, bool repeats)
 Result<QuantisedMesh> prepare(const MeshData& mesh, const EncodeOptions& options)
 {
 	constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max() / 3;
-	if (mesh.positions.size() > kMost || mesh.triangles.size() > kMost)
+	if (const std::size_t n = std::max(mesh.positions.size(), mesh.triangles.size()); n > kMost)
 		return Status(
-		    StatusCode::LimitExceeded, "the mesh has more than 715 million vertices or faces");
+		    StatusCode::LimitExceeded,
+		    "the mesh has " + std::to_string(n) + " vertices or faces, more than the " +
+		        std::to_string(kMost) + " that a .wmc can hold: split it");
 	const auto& finite = options.exact ? finitePositions(mesh.positions) : mesh.positions;
 	const auto lattice = makeLattice(finite, options.bits, options.step);
 	if (!lattice.ok())
