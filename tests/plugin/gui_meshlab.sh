@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # MeshLab's window on a display of its own, for the tests of the plugins in it. Sourced by them, with
-# `build` and `out` set; `out` is emptied, and keeps the pictures.
+# `build` and `out` set; `out` is emptied, and keeps the pictures. MESHLAB names another MeshLab than
+# the one in `build`.
 : "${build:?}" "${out:?}"
 
 rm -rf "$out"
@@ -84,7 +85,7 @@ start_meshlab() {
 		sleep 0.1
 	done
 	export DISPLAY=:$(<"$out/display") LIBGL_ALWAYS_SOFTWARE=1
-	"$build/meshlab/meshlab" "$1" >"$out/meshlab.log" 2>&1 &
+	"${MESHLAB:-$build/meshlab/meshlab}" "$1" >"$out/meshlab.log" 2>&1 &
 	meshlab=$!
 	if [[ $1 == *.wmc ]]; then
 		focus 'Pre-Open Options'
@@ -92,6 +93,10 @@ start_meshlab() {
 	fi
 	eventually 30 grep -q 'LOG: . All files opened' "$out/meshlab.log"
 	main=$(window 'MeshLab 20')
+	is_2022=0 # MeshLab 2022.02 has other dialogs
+	if has_window 'MeshLab 2022'; then
+		is_2022=1
+	fi
 	eventually 20 is_large
 	focus 'MeshLab 20'
 }
@@ -123,7 +128,7 @@ open_filter() {
 	# shellcheck disable=SC2034
 	{
 		preview_x=$((X + 16))
-		preview_y=$((Y + HEIGHT - 181))
+		preview_y=$((Y + HEIGHT - (is_2022 ? 78 : 181)))
 		apply_x=$((X + WIDTH - 125))
 		close_x=$((X + 125))
 		buttons_y=$((Y + HEIGHT - 22))
