@@ -52,7 +52,12 @@ target_link_libraries(wavemesh_meshlab_common INTERFACE
 
 set(meshlab_common_library ${MESHLAB_LIBRARY})
 if(MESHLAB_BUILD_DIR)
-	set(meshlab_common_library ${MESHLAB_BUILD_DIR}/src/distrib/libmeshlab-common.so)
+	if(WIN32)
+		set(meshlab_common_library ${MESHLAB_BUILD_DIR}/src/common/meshlab-common.lib)
+	else()
+		set(meshlab_common_library
+			${MESHLAB_BUILD_DIR}/src/distrib/libmeshlab-common${CMAKE_SHARED_LIBRARY_SUFFIX})
+	endif()
 endif()
 if(meshlab_common_library)
 	if(NOT EXISTS ${meshlab_common_library})
@@ -60,6 +65,8 @@ if(meshlab_common_library)
 			"meshlab-common, or leave MESHLAB_BUILD_DIR and MESHLAB_LIBRARY empty.")
 	endif()
 	add_library(wavemesh_meshlab_library SHARED IMPORTED)
+	set_property(TARGET wavemesh_meshlab_library
+		PROPERTY IMPORTED_IMPLIB ${meshlab_common_library}) # what Windows links
 	set_target_properties(wavemesh_meshlab_library PROPERTIES
 		IMPORTED_LOCATION ${meshlab_common_library}
 		IMPORTED_SONAME libmeshlab-common.so)
@@ -85,9 +92,10 @@ function(wavemesh_meshlab_plugin name)
 	wavemesh_target(${name})
 	# --as-needed keeps Qt's and MeshLab's own dependencies (OpenGL, GLEW) out of the plugin, so that
 	# it loads wherever MeshLab itself does. No run path: the host has libmeshlab-common.so loaded.
-	target_link_options(${name} PRIVATE -Wl,--as-needed)
-	if(meshlab_common_library)
-		target_link_options(${name} PRIVATE -Wl,--no-undefined)
+	# What it leaves on a layer is destroyed by its code, which has to outlive an unloaded plugin.
+	if(CMAKE_SYSTEM_NAME STREQUAL Linux)
+		target_link_options(${name} PRIVATE LINKER:--as-needed LINKER:-z,nodelete
+			$<$<BOOL:${meshlab_common_library}>:LINKER:--no-undefined>)
 	endif()
 	set_target_properties(${name} PROPERTIES
 		AUTOMOC ON

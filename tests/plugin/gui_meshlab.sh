@@ -93,10 +93,6 @@ start_meshlab() {
 	fi
 	eventually 30 grep -q 'LOG: . All files opened' "$out/meshlab.log"
 	main=$(window 'MeshLab 20')
-	is_2022=0 # MeshLab 2022.02 has other dialogs
-	if has_window 'MeshLab 2022'; then
-		is_2022=1
-	fi
 	eventually 20 is_large
 	focus 'MeshLab 20'
 }
@@ -106,6 +102,19 @@ is_large() {
 	xdotool windowmove "$main" 0 0 windowsize "$main" 1270 890
 	sleep 1
 	[[ $(xdotool getwindowgeometry --shell "$main") == *WIDTH=1270*HEIGHT=890* ]]
+}
+
+# The middle of the dialog's Preview box, which stands elsewhere in every MeshLab: its left side is
+# the one dark stroke of such a length in its column.
+preview_row() {
+	import -window root "$out/dialog.png"
+	convert "$out/dialog.png" -crop "1x$HEIGHT+$((X + 10))+$Y" +repage -colorspace gray -depth 8 txt:- |
+		awk -F '[,:() ]+' -v y0="$Y" '
+			/^[0-9]/ {
+				if ($3 < 200) ++run
+				else { if (run >= 9 && run <= 16) middle = y0 + $2 - int(run / 2); run = 0 }
+			}
+			END { print middle + 0 }'
 }
 
 # open_filter NAME [SEARCH]: the filter's dialog, at the right; sets X Y WIDTH HEIGHT of it and the
@@ -128,7 +137,7 @@ open_filter() {
 	# shellcheck disable=SC2034
 	{
 		preview_x=$((X + 16))
-		preview_y=$((Y + HEIGHT - (is_2022 ? 78 : 181)))
+		preview_y=$(preview_row)
 		apply_x=$((X + WIDTH - 125))
 		close_x=$((X + 125))
 		buttons_y=$((Y + HEIGHT - 22))

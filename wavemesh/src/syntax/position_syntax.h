@@ -15,6 +15,8 @@
 #include "predict/surface.h"
 #include "wavelet/lifting.h"
 
+#include <wavemesh/codec.h>
+
 namespace wavemesh {
 
 template <class Coder>
@@ -35,6 +37,10 @@ public:
 	        first_(firstCorners(table)), rank_(table.vertexCount)
 	{
 	}
+
+	/// Has `progress` called now and then with the part of a level's vertices that are coded. If it
+	/// returns false, coding stops there, and what was coded is of no use.
+	void watch(const Progress& progress) { progress_ = progress; }
 
 	/// Codes the cells of the vertices that a split added.
 	///
@@ -75,6 +81,8 @@ public:
 		for (const Index v : walk) {
 			if (v < firstNew_)
 				continue;
+			if (!goesOn(rank_[v] - firstNew_, parents.size()))
+				break;
 			if (!coder_.exhausted()) {
 				now_ = rank_[v];
 				codeVertex(v);
@@ -113,7 +121,9 @@ public:
 		std::vector<Index> codedFirst(glue_.first.size(), kNone); // by the group's first vertex
 		Index whole = 0;
 		for (const Index v : walk) {
-			now_             = rank_[v];
+			now_ = rank_[v];
+			if (!goesOn(now_, walk.size()))
+				break;
 			const bool glued = glue_.isShared(v);
 			if (glued && codedFirst[glue_.first[v]] != kNone) {
 				copyVertex(codedFirst[glue_.first[v]], v);
@@ -186,6 +196,12 @@ private:
 	}
 
 	bool known(Index v) const { return rank_[v] < now_; }
+
+	bool goesOn(std::size_t coded, std::size_t all) const
+	{
+		constexpr std::size_t kBetween = 4096;
+		return coded % kBetween != 0 || !progress_ || progress_(double(coded) / double(all));
+	}
 	Vector at(Index v) const { return {likely_[v][0], likely_[v][1], likely_[v][2]}; }
 	Vector fromOrigin(const View& view, Index v) const { return at(v) - view.origin; }
 
@@ -817,6 +833,7 @@ private:
 	const CornerTable& table_;
 	const int fullBits_;
 	const Glue& glue_;
+	Progress progress_;
 	std::vector<Index> first_;
 	std::vector<Index> rank_; ///< #V: place in the order of coding
 	Index now_ = 0;           ///< rank of the vertex being coded
