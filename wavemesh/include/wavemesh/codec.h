@@ -243,8 +243,10 @@ public:
 	/// Level of mesh(), or -1 before the first advance().
 	int level() const;
 	/// Decodes the next level. After an error the decoder stays at the level it had; after
-	/// Truncated it may have moved to a partly predicted level and does not advance any more.
-	Status advance();
+	/// Truncated it may have moved to a partly predicted level and does not advance any more. Nor
+	/// does it after Cancelled.
+	/// @param progress  of this level
+	Status advance(const Progress& progress = {});
 	/// The mesh of the current level. @pre level() >= 0
 	MeshData mesh() const;
 

@@ -10,6 +10,8 @@
 #include "predict/expected_errors.h"
 #include "predict/offset_prediction.h"
 
+#include <wavemesh/codec.h>
+
 namespace wavemesh {
 
 template <class Coder, PredictorSet kSet>
@@ -36,6 +38,10 @@ public:
 	{
 	}
 
+	/// Has `progress` called now and then with the part of a level's vertices that are coded. If it
+	/// returns false, coding stops there, and what was coded is of no use.
+	void watch(const Progress& progress) { progress_ = progress; }
+
 	/// Codes the cells of the vertices that a split added.
 	///
 	/// @param parent      the level before
@@ -55,8 +61,10 @@ public:
 		if (firstCounted_)
 			for (Index v = 0; v < parent.vertexCount; ++v)
 				count(cells[v]);
-		Index whole = 0;
-		for (const Index v : around_.beginChildren(parent, refinement, parents, cells)) {
+		Index whole                   = 0;
+		const std::vector<Index> walk = around_.beginChildren(parent, refinement, parents, cells);
+		for (std::size_t i = 0; i < walk.size() && goesOn(i, walk.size()); ++i) {
+			const Index v = walk[i];
 			if (!coder_.exhausted())
 				codeVertex(v);
 			if (!coder_.exhausted())
@@ -83,8 +91,10 @@ public:
 		truth_  = &truth;
 		begin(all_.bits, shift, bits, cells);
 		std::vector<Index> codedFirst(glue_.first.size(), kNone); // by the group's first vertex
-		Index whole = 0;
-		for (const Index v : around_.beginBits(cells, bits)) {
+		Index whole                   = 0;
+		const std::vector<Index> walk = around_.beginBits(cells, bits);
+		for (std::size_t i = 0; i < walk.size() && goesOn(i, walk.size()); ++i) {
+			const Index v    = walk[i];
 			const bool glued = glue_.isShared(v);
 			if (glued && codedFirst[glue_.first[v]] != kNone) {
 				copyVertex(codedFirst[glue_.first[v]], v);
@@ -118,6 +128,11 @@ private:
 		if (firstCounted_)
 			for (auto& counts : all_.counts)
 				counts.emplace(std::size_t(1) << fullBits_);
+	}
+	bool goesOn(std::size_t coded, std::size_t all) const
+	{
+		constexpr std::size_t kBetween = 1024;
+		return coded % kBetween != 0 || !progress_ || progress_(double(coded) / double(all));
 	}
 	/// At full precision.
 	void count(const LatticePoint& cell)
@@ -375,6 +390,7 @@ private:
 	const int fullBits_;
 	const Glue& glue_;
 	Neighbourhood around_;
+	Progress progress_;
 
 	bool births_                            = false;
 	bool firstCounted_                      = false; ///< coordinates are counted from now on
