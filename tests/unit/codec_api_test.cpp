@@ -150,12 +150,12 @@ TEST(Progress, MovesWithinALargeLevel)
 	const auto file = encode(mesh, o);
 	EXPECT_LT(largest, 0.1);
 
-	// The last level is about a third of the work.
+	// The last split is about half of the work, a third of that its connectivity, in one piece.
 	before = largest = 0;
 	DecodeOptions d;
 	d.progress = progress;
 	ASSERT_TRUE(decode(file->bytes.data(), file->bytes.size(), d).ok());
-	EXPECT_LT(largest, 0.15);
+	EXPECT_LT(largest, 0.2);
 }
 
 TEST(Progress, OfALevelCancels_AndTheDecoderStaysWhereItWas)
