@@ -46,18 +46,18 @@ double RemovalError::least(Index v) const
 	for (int i = 0; i < s.size; ++i)
 		for (int k = i + 2; k < s.size; ++k) {
 			if (CoarsenState::fits(s, i, k))
-				best = std::min(best, ofPlaces({v, s.ring[i], s.ring[k]}, i, k));
+				best = std::min(best, ofPlaces({v, s.ring[i], s.ring[k]}, i, k, best));
 		}
 	return best;
 }
 
-double RemovalError::of(const ChildOf& p) const
+double RemovalError::of(const ChildOf& p, double most) const
 {
 	const Star& s = state_.star(p.child);
 	if (s.size > Star::kMax)
 		return kInfinite;
 	const int a = s.find(p.parentA), b = s.find(p.parentB);
-	return a >= 0 && b >= 0 && CoarsenState::fits(s, a, b) ? ofPlaces(p, a, b) : kInfinite;
+	return a >= 0 && b >= 0 && CoarsenState::fits(s, a, b) ? ofPlaces(p, a, b, most) : kInfinite;
 }
 
 double RemovalError::relative(const ChildOf& p) const
@@ -68,7 +68,8 @@ double RemovalError::relative(const ChildOf& p) const
 
 bool RemovalError::allows(const ChildOf& p, bool complete) const
 {
-	return !active() || of(p) <= (complete ? kCompleteRelief * limit_ : limit_);
+	const double most = complete ? kCompleteRelief * limit_ : limit_;
+	return !active() || of(p, most) <= most;
 }
 
 bool RemovalError::allowsCentre(Index v) const
@@ -90,17 +91,20 @@ double RemovalError::error(Index child, const Vector3& place) const
 	return std::max(0.0, q.at(place) - q.at({0, 0, 0}));
 }
 
-double RemovalError::ofPlaces(const ChildOf& p, int placeA, int placeB) const
+double RemovalError::ofPlaces(const ChildOf& p, int placeA, int placeB, double most) const
 {
-	const Star& s = state_.star(p.child);
-	for (int i = 0; i < CoarsenState::sideCount(s); ++i)
-		if (folds(CoarsenState::side(s, placeA, placeB, i)))
-			return kInfinite;
 	Vector3 middle;
 	for (std::size_t k = 0; k < 3; ++k)
 		middle[k] = 0.5 * (double(positions_[p.parentA][k]) + positions_[p.parentB][k]) -
 		            positions_[p.child][k];
-	return error(p.child, middle);
+	const double e = error(p.child, middle);
+	if (e > most)
+		return kInfinite;
+	const Star& s = state_.star(p.child);
+	for (int i = 0; i < CoarsenState::sideCount(s); ++i)
+		if (folds(CoarsenState::side(s, placeA, placeB, i)))
+			return kInfinite;
+	return e;
 }
 
 /// Does every way to close the side, without its child, turn a face away from the fine ones?

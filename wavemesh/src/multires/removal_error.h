@@ -8,6 +8,8 @@
 #include "multires/coarsen_state.h"
 #include "multires/quadrics.h"
 
+#include <limits>
+
 namespace wavemesh {
 
 class RemovalError
@@ -29,8 +31,9 @@ public:
 	/// Squared distance times area that is added where the coarse surface passes the middle of the
 	/// parents in place of the child, by the child's quadric; infinite if no pair of coarse faces
 	/// beside the new edge looks the way the fine ones did. Lattice units to the fourth.
+	/// @param most  errors above it may come back as infinite, which is cheaper
 	/// @pre active()
-	double of(const ChildOf& proposal) const;
+	double of(const ChildOf& proposal, double most = std::numeric_limits<double>::infinity()) const;
 	/// The same in units of the largest error that a step may make by removing one vertex.
 	double relative(const ChildOf& proposal) const;
 	/// Is the error within the level's limit? Always if not active. `complete`: the child completes
@@ -43,7 +46,7 @@ private:
 	double error(Index child, const Vector3& place) const;
 	double least(Index v) const;
 	/// With the parents at these places of the child's ring. @pre CoarsenState::fits()
-	double ofPlaces(const ChildOf& proposal, int placeA, int placeB) const;
+	double ofPlaces(const ChildOf& proposal, int placeA, int placeB, double most) const;
 	bool folds(const Side& side) const;
 
 	const CoarsenState& state_;
