@@ -254,10 +254,9 @@ private:
 			          {8, 1, kAll, smooth},
 			          {4, 1, 2, smooth},
 			          {12, 1, 2, smooth}});
+		add(repeats, {{8, 1, 1, smooth}, {8, 1, 2, smooth}, {8, 1, kAll, smooth}});
 		if (isSmall() || repeats_)
-			add(repeats, {{8, 1, 1, smooth},
-			              {8, 1, kAll, smooth},
-			              {4, 1, kAll, repeating},
+			add(repeats, {{4, 1, kAll, repeating},
 			              {12, 1, kAll, repeating},
 			              {8, 1, kAll, cellErrorsFor(Optimize::Balanced, true)}});
 		return ways;
