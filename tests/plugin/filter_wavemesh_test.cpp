@@ -157,6 +157,66 @@ TEST(FilterWavemesh, AnEditedLayerIsEncodedAnew)
 	EXPECT_TRUE(Shape(host.mesh()) == edited) << "the old stream must not come back";
 }
 
+TEST(FilterWavemesh, NoEditOfALayerFromAFileIsUndoneByBrowsing)
+{
+	struct Edit
+	{
+		const char* name;
+		void (*make)(MeshLabHost&);
+	};
+	const Edit edits[] = {
+	    {"a vertex moved a little",
+	     [](MeshLabHost& host) { host.mesh().cm.vert[17].P()[1] *= Scalarm(1.0001); }},
+	    {"a face deleted",
+	     [](MeshLabHost& host) {
+		     vcg::tri::Allocator<CMeshO>::DeleteFace(host.mesh().cm, host.mesh().cm.face[5]);
+		     vcg::tri::Allocator<CMeshO>::CompactEveryVector(host.mesh().cm);
+	     }},
+	    {"a face turned over",
+	     [](MeshLabHost& host) {
+		     CFaceO& f = host.mesh().cm.face[5];
+		     std::swap(f.V(1), f.V(2));
+	     }},
+	    {"a transformation, frozen", [](MeshLabHost& host) {
+		     Matrix44m turn;
+		     turn.SetRotateDeg(30, Point3m(0, 1, 0));
+		     vcg::tri::UpdatePosition<CMeshO>::Matrix(host.mesh().cm, turn);
+	     }}};
+	MeshLabHost& first = freshHost();
+	first.open(sample("pretzel.ply"));
+	first.save(scratch("edits.wmc"));
+	for (const char* level : {"-1", "3"}) // of the finest and of a coarse level
+		for (const Edit& edit : edits) {
+			SCOPED_TRACE(edit.name);
+			SCOPED_TRACE(level);
+			MeshLabHost& host = freshHost();
+			host.open(scratch("edits.wmc"), {{"level", level}});
+			const Shape before(host.mesh());
+			edit.make(host);
+			const Shape edited(host.mesh());
+			ASSERT_FALSE(edited == before);
+			browse(host, 1);
+			browse(host, -1);
+			EXPECT_TRUE(Shape(host.mesh()) == edited) << "the old stream must not come back";
+		}
+}
+
+TEST(FilterWavemesh, ATransformationOfALayerStaysWithEveryLevel)
+{
+	MeshLabHost& first = freshHost();
+	first.open(sample("pretzel.ply"));
+	first.save(scratch("moved.wmc"));
+	MeshLabHost& host = freshHost();
+	host.open(scratch("moved.wmc"));
+	host.mesh().cm.Tr.SetTranslate(2, 0, -1);
+	const Matrix44m there = host.mesh().cm.Tr;
+	ASSERT_NE(there, Matrix44m::Identity());
+	for (const int level : {0, 2, -1}) {
+		browse(host, level);
+		EXPECT_EQ(host.mesh().cm.Tr, there) << level;
+	}
+}
+
 TEST(FilterWavemesh, LayersFromLevelsLeaveTheLayerAsItWas)
 {
 	MeshLabHost& host = freshHost();
