@@ -1,15 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # docs/make_pictures.sh: makes the pictures of README.md and docs/tutorial.md anew, of what MeshLab's
-# window shows in the tests. Run tests/run.sh once before: it builds what this needs.
+# window shows in the tests. Sets up and builds first what is missing or not up to date.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-root=$PWD
-build=$root/build
+# shellcheck source=cmake/setup.sh
+. cmake/setup.sh
+if [[ ! -x $build/meshlab/meshlab || ! -f $build/build.ninja ]]; then
+	set_up "${packages_build[@]}" "${packages_tests[@]}"
+	make_meshlab_folder
+	configure meshlab
+fi
+build_targets "Building Wavemesh" "$build" wmc wmc-thumbnailer io_wavemesh filter_wavemesh meshlab_host
 images=$root/docs/images
 mesh=$root/samples/pretzel.ply
 
-"$root/tests/plugin/gui_test.sh" "$build" "$mesh"
+"$root/tests/plugin/gui_test.sh" "$build" "$root/samples/bracket.ply"
 "$root/tests/plugin/gui_filters_test.sh" "$build" "$mesh"
 cp "$build/gui/browse.png" "$images/browse.png"
 

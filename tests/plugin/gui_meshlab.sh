@@ -69,7 +69,9 @@ picture() {
 
 # differing A B: how many pixels of the two views differ
 differing() {
-	compare -metric AE "$out/$1-view.png" "$out/$2-view.png" null: 2>&1 || true
+	# ImageMagick 7 adds a fraction in brackets.
+	{ compare -metric AE "$out/$1-view.png" "$out/$2-view.png" null: 2>&1 || true; } |
+		awk '{ printf "%d\n", $1 }'
 }
 
 # start_meshlab FILE: its window as large as the display nearly is, with FILE open; what to open is
@@ -85,8 +87,11 @@ start_meshlab() {
 		sleep 0.1
 	done
 	export DISPLAY=:$(<"$out/display") LIBGL_ALWAYS_SOFTWARE=1
-	"${MESHLAB:-$build/meshlab/meshlab}" "$1" >"$out/meshlab.log" 2>&1 &
+	# From the file's folder, so that the log, and the pictures, have its name only.
+	pushd "$(dirname "$1")" >/dev/null
+	"${MESHLAB:-$build/meshlab/meshlab}" "$(basename "$1")" >"$out/meshlab.log" 2>&1 &
 	meshlab=$!
+	popd >/dev/null
 	if [[ $1 == *.wmc ]]; then
 		focus 'Pre-Open Options'
 		xdotool key Return

@@ -47,7 +47,7 @@ drag() {
 	xdotool mouseup 1
 }
 
-middle=$(((slider_left + slider_right) / 2))
+middle=$(((4 * slider_left + 6 * slider_right) / 10))
 drag "$slider_right" $((slider_left - 20))
 eventually 20 last_level_is 0
 picture base
