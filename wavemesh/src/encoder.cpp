@@ -3,12 +3,12 @@
 #include "encode/classic.h"
 #include "encode/compact.h"
 #include "finish/finish.h"
-#include "wavelet/lifting.h"
 
 #include <wavemesh/codec.h>
 
 #include <limits>
 #include <new>
+#include <optional>
 
 namespace wavemesh {
 namespace {
@@ -113,14 +113,19 @@ public:
 			    makeLevels(mesh_, criterion, steeringFor(options_.optimize), stage.part(0, 0.4));
 			if (!levels)
 				return cancelled();
-			if (!(classic ? tryClassic(*levels, wgc, stage.part(0.4, 1))
-			              : tryCompact(*levels, wgc, stage.part(0.4, 1))))
+			std::optional<AttributeLevels> attributes;
+			if (featuresFor(options_, original_, mesh_.cut) & (1 << kAttributes))
+				attributes.emplace(original_, mesh_, *levels);
+			if (!(classic ? tryClassic(*levels, attributes, wgc, stage.part(0.4, 1))
+			              : tryCompact(*levels, attributes, wgc, stage.part(0.4, 1))))
 				return cancelled();
 		}
 		return std::move(best_);
 	}
 
 private:
+	using Attributes = std::optional<AttributeLevels>;
+
 	Head headOf(const Levels& levels, Mode mode, bool wgc) const
 	{
 		Head head;
@@ -133,19 +138,20 @@ private:
 		return head;
 	}
 
-	bool tryClassic(Levels& levels, bool wgc, const Stage& stage)
+	bool tryClassic(Levels& levels, const Attributes& attributes, bool wgc, const Stage& stage)
 	{
 		Head head    = headOf(levels, Mode::Classic, wgc);
 		head.lifting = options_.mode == Mode::Classic ? options_.lifting : kLiftingOff;
 		std::vector<std::uint8_t> chunks;
-		const Parents parents = parentsFor(head, levels);
-		if (!writeClassic(levels, head, chunks, stage))
+		auto writer = writerFor(attributes);
+		if (!writeClassic(levels, writer.get(), head, chunks, stage))
 			return false;
-		keepIfSmaller(levels, parents, head, chunks);
+		keepIfSmaller(levels, writer.get(), head, chunks);
 		return true;
 	}
 
-	bool tryCompact(const Levels& levels, bool wgc, const Stage& stage)
+	bool
+	tryCompact(const Levels& levels, const Attributes& attributes, bool wgc, const Stage& stage)
 	{
 		const std::vector<ScheduleOptions> tries = schedulesFor();
 		for (std::size_t i = 0; i < tries.size(); ++i) {
@@ -153,11 +159,12 @@ private:
 			Head head         = headOf(levels, Mode::Compact, wgc);
 			std::vector<std::uint8_t> chunks;
 			const Schedule schedule = makeSchedule(levels, mesh_.lattice.bits, tries[i]);
+			auto writer             = writerFor(attributes);
 			if (!writeCompact(
-			        levels, schedule, head, chunks,
+			        levels, schedule, writer.get(), head, chunks,
 			        stage.part(double(i) * part, double(i + 1) * part)))
 				return false;
-			keepIfSmaller(levels, parentsFor(head, levels), head, chunks);
+			keepIfSmaller(levels, writer.get(), head, chunks);
 		}
 		return true;
 	}
@@ -177,24 +184,20 @@ private:
 		    {12, 1, last, errors}};
 	}
 
-	/// Of all vertices but the base mesh's, if anything asks for them.
-	static Parents parentsFor(const Head& head, const Levels& levels)
+	static std::unique_ptr<AttributeWriter> writerFor(const Attributes& attributes)
 	{
-		Parents all;
-		if (head.has(kAttributes))
-			for (const ReplayedLevel& level : levels.replay.levels) {
-				const Parents some = parentsOf(level.parent, level.refinement);
-				all.insert(all.end(), some.begin(), some.end());
-			}
-		return all;
+		return attributes ? std::make_unique<AttributeWriter>(*attributes) : nullptr;
 	}
 
 	void keepIfSmaller(
-	    const Levels& levels, const Parents& parents, Head& head, std::vector<std::uint8_t>& chunks)
+	    const Levels& levels,
+	    AttributeWriter* attributes,
+	    Head& head,
+	    std::vector<std::uint8_t>& chunks)
 	{
 		writeFinish(
 		    {original_, mesh_.cut, levels.replay.finest, levels.positions, levels.replay.source,
-		     levels.glue, parents},
+		     levels.glue, attributes},
 		    head, chunks);
 		EncodedMesh out;
 		writeHead(head, out.bytes);

@@ -58,6 +58,7 @@ std::uint64_t squaredErrors(
 bool writeCompact(
     const Levels& levels,
     const Schedule& schedule,
+    AttributeWriter* attributes,
     Head& head,
     std::vector<std::uint8_t>& chunks,
     const Stage& stage)
@@ -95,6 +96,9 @@ bool writeCompact(
 		BaseSyntax<RangeEncoder>(writer.coder(), bits - shift, head.has(kRestoration))
 		    .write(base, ignored, &levels.group);
 	}
+	writer.attributesBegin();
+	if (attributes)
+		attributes->base(writer.coder(), levels.table(0), levels.glue);
 	endLevel(LevelKind::Base, 0);
 	for (std::size_t i = 0; i < schedule.steps.size(); ++i) {
 		const ScheduleStep& step = schedule.steps[i];
@@ -109,6 +113,10 @@ bool writeCompact(
 			appendCells(truth, cells.size(), child.vertexCount, shift, cells);
 			PositionSyntax<RangeEncoder>(writer.coder(), *models, child, bits, levels.glue)
 			    .codeChildren(level.parent, refinement, parents[split - 1], shift, cells);
+			writer.attributesBegin();
+			if (attributes)
+				attributes->split(
+				    writer.coder(), split, level.parent, child, refinement, parents[split - 1]);
 		}
 		else {
 			shift -= step.bits;
@@ -118,6 +126,7 @@ bool writeCompact(
 			PositionSyntax<RangeEncoder>(
 			    writer.coder(), *models, levels.table(split), bits, levels.glue)
 			    .codeBits(shift, step.bits, cells, finer);
+			writer.attributesBegin();
 		}
 		endLevel(step.kind, i + 1);
 		if (!stage(double(i + 1) / double(schedule.steps.size())))
