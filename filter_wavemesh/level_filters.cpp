@@ -90,7 +90,7 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::simplify(
 	const SimplifyTarget target = simplifyTarget(parameters, layer);
 	EncodeOptions options       = encodeOptions(parameters, browsingOptions());
 	options.progress            = progressBar(cb, "Making levels...");
-	const unsigned channels     = drawnVertexChannels(layer);
+	const unsigned channels     = drawnChannels(layer);
 	const auto encoded          = encode(meshDataOf(layer, channels), options);
 	require(encoded.status(), "Cannot simplify " + layer.label());
 
@@ -180,7 +180,7 @@ SharedBytes FilterWavemeshPlugin::encodeForBrowsing(const MeshModel& layer)
 {
 	const std::uint64_t now = fingerprint(layer.cm, Extent::Attributes);
 	if (!encoded_.stream || encoded_.fingerprint != now) {
-		auto encoded = encode(meshDataOf(layer, drawnVertexChannels(layer)), browsingOptions());
+		auto encoded = encode(meshDataOf(layer, drawnChannels(layer)), browsingOptions());
 		require(encoded.status(), "Cannot make levels of " + layer.label());
 		encoded_ = {
 		    now, std::make_shared<const std::vector<std::uint8_t>>(std::move(encoded->bytes))};

@@ -178,9 +178,6 @@ void IOWavemeshPlugin::open(
 			if (progress)
 				progress(double(masks.size()) / double(layers.size()));
 		}
-		// The file has it with the finest mesh; the levels belong in the same place.
-		for (MeshModel* layer : layers)
-			layer->cm.Tr = layers.back()->cm.Tr;
 		log(QString("Opened levels 0 to %1 of %2 from %3.")
 		        .arg(decoder->level())
 		        .arg(finest)
@@ -269,9 +266,10 @@ IOWavemeshPlugin::initSaveParameter(const QString& format, const MeshModel& laye
 	list.addParam(RichEnum("preset", int(Preset::Custom), presetNames(), "Preset", presetHelp()));
 	addEncodeParameters(list, defaults);
 	addPromiseParameters(list);
+	addAttributeParameters(list);
 	list.addParam(RichBool(
 	    "custom", false, "User-defined attributes",
-	    "Keep the layer's user-defined attributes of vertices and faces, those that are numbers."));
+	    "Keep the layer's user-defined attributes of vertices and faces, those that are numbers or points."));
 	return list;
 }
 
@@ -297,7 +295,9 @@ void IOWavemeshPlugin::save(
 		unsigned channels = channelsOf(layer, mask);
 		if (flagOf(parameters, "custom", false))
 			channels |= kCustom;
-		const auto encoded = encode(meshDataOf(layer, channels), options);
+		MeshData data = meshDataOf(layer, channels);
+		setAttributeBits(parameters, options.exact, data);
+		const auto encoded = encode(data, options);
 		require(encoded.status(), "Cannot save " + fileName);
 		writeFile(fileName, encoded->bytes);
 
@@ -305,6 +305,9 @@ void IOWavemeshPlugin::save(
 		const QStringList lost = attributesNotKept(layer, channels);
 		if (!lost.isEmpty())
 			log(GLLogStream::WARNING, ("Not saved: " + lost.join(", ") + ".").toStdString());
+		const QStringList rounded = attributesRounded(encoded->info);
+		if (!rounded.isEmpty())
+			log(("Rounded: " + rounded.join(", ") + ".").toStdString());
 		const double bytes     = double(encoded->bytes.size());
 		const double ofShape   = bytes - double(encoded->info.features.attributeBytes);
 		const double binaryPly = 12.0 * layer.cm.vn + 13.0 * layer.cm.fn;

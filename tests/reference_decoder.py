@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reference decoder of .wmc mesh files, version 0.2.
+"""Reference decoder of .wmc mesh files, version 0.3.
 
 Written from docs/wmc_format.md alone, without a look at any other implementation. It follows that document's
 sections and names: whoever reads one should find his way in the other. It is meant to be read and to be compared
@@ -17,7 +17,7 @@ import struct
 import sys
 from bisect import bisect_left, insort
 from collections import deque
-from math import isfinite, isqrt, sqrt
+from math import floor, isfinite, isqrt, sqrt
 
 NONE = -1                                   # no vertex, no corner
 
@@ -200,7 +200,7 @@ def read_head(data):
     if chunk.type != "H":
         raise corrupt("the first chunk is not the head")
     payload = chunk.payload
-    if len(payload) >= 2 and (payload[0] != 0 or payload[1] != 2):
+    if len(payload) >= 2 and (payload[0] != 0 or payload[1] != 3):
         raise Outcome("VersionTooNew", "version %d.%d" % (payload[0], payload[1]))
     if not chunk.whole:
         raise Outcome("Truncated", "in the head")
@@ -248,6 +248,9 @@ def read_fixed_fields(payload):
         head.original_faces = varint()
         if max(head.original_vertices, head.original_faces) > MAX_COUNT:
             raise corrupt("counts of the original are out of range")
+    head.attributes, head.textures = [], []
+    if head.features & 8:
+        head.attributes, head.textures, offset = read_attributes(payload, offset)
     head.feature_length = {}
     for i in range(4):
         if head.features >> i & 1:
@@ -269,7 +272,7 @@ def read_fixed_fields(payload):
 
 def read_level_table(head, data):
     """4.2"""
-    V, F, B, C = (AdaptiveUnsigned(32) for _ in range(4))
+    V, F, B, C, T = (AdaptiveUnsigned(32) for _ in range(5))
     R, E, S = AdaptiveSigned(32), AdaptiveSigned(9), AdaptiveUnsigned(5)
     ends, more = AdaptiveBit(), AdaptiveBit()
     J = head.J
@@ -296,6 +299,8 @@ def read_level_table(head, data):
                 head.error[i] = (head.error[i + 1] + E.read(decoder)) % 256
             head.bytes[i] = B.read(decoder)
             head.connectivity[i] = C.read(decoder)
+            if head.features & 8:
+                head.connectivity[i] += T.read(decoder)         # together at most `bytes`
             head.ends[i] = bit(decoder, ends, 60)
             head.kind[i] = BASE if i == 0 else SPLIT
             if head.compact and i > 0 and bit(decoder, more, 60) == 1:
@@ -2225,6 +2230,7 @@ class Restoration:
                 positions.append(self.positions[v])
             else:
                 number[v] = number[first]
+        self.number = number
         isolated = head.original_vertices - len(positions)
         if isolated < 0:
             raise corrupt("the original has fewer vertices than level J")
@@ -2237,6 +2243,7 @@ class Restoration:
         if bit(decoder, flag[0], 255) == 1:
             for f in range(mesh.faces):
                 turned[f] = bit(decoder, turned_bits[self.around(f, turned)], 255)
+        self.turned = turned
         has = [0] * mesh.faces
         same_turned = []                                    # (face, same, turned)
         if bit(decoder, flag[1], 255) == 1:
@@ -2311,8 +2318,12 @@ class Restoration:
 MAX_F32 = struct.unpack("<f", b"\xff\xff\x7f\x7f")[0]
 
 
+def f32(x):
+    return struct.unpack("<f", struct.pack("<f", clamp(x, -MAX_F32, MAX_F32) if isfinite(x) else x))[0]
+
+
 def ordinal(x, wide):
-    i = struct.unpack("<q", struct.pack("<d", x))[0] if wide else struct.unpack("<i", struct.pack("<f", x))[0]
+    i = struct.unpack("<q", struct.pack("<d", x))[0] if wide else struct.unpack("<i", struct.pack("<f", f32(x)))[0]
     return i if i >= 0 else i ^ ((1 << 63) - 1 if wide else (1 << 31) - 1)
 
 
@@ -2325,50 +2336,752 @@ def number_of(i, wide):
     return struct.unpack("<f", struct.pack("<i", i if i >= 0 else i ^ ((1 << 31) - 1)))[0]
 
 
-class ExactRow:
-    def __init__(self):
-        self.zero, self.sign = bits_of(2)
-        self.length = bits_of(64)
-        self.top = [bits_of(4) for _ in range(65)]
+class ExactRows:
+    """Differences of one kind and axis: rows by reach, and their common first digits."""
 
-    def read(self, decoder):
-        if bit(decoder, self.zero, 255) == 1:
+    def __init__(self):
+        self.rows = {}
+        self.top = [bits_of(4) for _ in range(5)]
+
+    def read(self, decoder, reach):
+        if reach not in self.rows:
+            self.rows[reach] = (AdaptiveBit(), AdaptiveBit(), bits_of(64))
+        zero, sign, length = self.rows[reach]
+        if bit(decoder, zero, 255) == 1:
             return 0
-        negative = bit(decoder, self.sign, 255)
+        negative = bit(decoder, sign, 255)
         n = 0
-        while n < 64 and bit(decoder, self.length[n], 255) == 1:
+        while n < 64 and bit(decoder, length[n], 255) == 1:
             n += 1
         m = min(n, 1)
+        t = clamp(reach - n + 2, 0, 4)
         for digit in range(n - 1):
             if digit == 0:
-                m = 2 * m + bit(decoder, self.top[n][0], 255)
+                m = 2 * m + bit(decoder, self.top[t][0], 255)
             elif digit == 1:
-                m = 2 * m + bit(decoder, self.top[n][m], 255)
+                m = 2 * m + bit(decoder, self.top[t][m], 255)
             else:
                 m = 2 * m + decoder.raw(1)
         return -m - 1 if negative else m + 1
 
 
+class ExactNumbers:
+    def __init__(self, wide, digits, axes):
+        self.wide, self.digits = wide, digits
+        self.decimal = bits_of(axes)
+        self.zeros = [[bits_of(4) for _ in range(54)] for _ in range(axes)]
+        self.binary_rows = [ExactRows() for _ in range(axes)]
+        self.decimal_rows = [ExactRows() for _ in range(axes)]
+
+    def read(self, decoder, k, p, step):
+        if self.digits >= 0 and bit(decoder, self.decimal[k], 255) == 1:
+            power = float(10 ** self.digits)
+
+            def n(x, u):
+                return int(clamp(floor(x * power / u + 0.5), -(1 << 53), 1 << 53)) if isfinite(x * power) else 0
+
+            unit = 1
+            zeros = self.zeros[k][bitlen(abs(n(p, 1)))]
+            for i in range(4 if self.digits > 0 else 0):
+                if bit(decoder, zeros[i], 255) == 0:
+                    break
+                unit *= 10
+            count = unit * (n(p, unit) + self.decimal_rows[k].read(decoder, bitlen(n(step, unit))))
+            x = float(count) / power
+            return x if self.wide else f32(x)
+        o = ordinal(p, self.wide)
+        reach = ordinal(p + step, self.wide) - o
+        return number_of(o + self.binary_rows[k].read(decoder, bitlen(reach)), self.wide)
+
+
 def read_exact(decoder, head, positions):
     """The exact coordinates of the restored mesh with these lattice positions."""
     wide = decoder.raw(1)
-
-    def o(x):
-        return ordinal(x if wide else clamp(x, -MAX_F32, MAX_F32), wide)
-
-    rows = [[None] * 65 for _ in range(3)]
+    numbers = ExactNumbers(wide, decoder.raw(4) - 1, 3)
     result = []
     for P in positions:
-        predicted = model_position(head, P)
-        exact = []
-        for k in range(3):
-            p = predicted[k]
-            reach = bitlen(o(p + head.step) - o(p))
-            if rows[k][reach] is None:
-                rows[k][reach] = ExactRow()
-            exact.append(number_of(o(p) + rows[k][reach].read(decoder), wide))
-        result.append(tuple(exact))
+        p = model_position(head, P)
+        result.append(tuple([numbers.read(decoder, k, p[k], head.step) for k in range(3)]))
     return result
+
+
+# ----------------------------------------------------------------------------------------------------------------
+# 12.5 Order
+# ----------------------------------------------------------------------------------------------------------------
+
+def limited_mix(mixer, decoder, models, which):
+    """Mixer.mix with models of limit 30"""
+    s = [stretch(m.p()) for m in models]
+    weights = mixer.sets[which]
+    p = squash(weights.sum(s))
+    value = decoder.decode(p)
+    weights.adjust(s, p, value, mixer.slow)
+    for m in models:
+        m.learn(value, 30)
+    return value
+
+
+class Lazily(dict):
+    """Models made when they are asked for first."""
+
+    def __init__(self, make):
+        self.make = make
+
+    def __missing__(self, key):
+        self[key] = self.make()
+        return self[key]
+
+
+class Free:
+    """The numbers that no vertex has yet, or the faces not told."""
+
+    def __init__(self, count):
+        self.left = list(range(count))
+
+    def rank(self, n):
+        return bisect_left(self.left, n)
+
+    def has(self, n):
+        r = self.rank(n)
+        return r < len(self.left) and self.left[r] == n
+
+    def take(self, n):
+        del self.left[self.rank(n)]
+
+
+class Order:
+    def __init__(self, mesh, vertices, faces):
+        """mesh: of level J; the restored mesh's number of vertices, and faces"""
+        self.mesh, self.faces = mesh, faces
+        self.number = [NONE] * vertices
+        self.free = Free(vertices)
+        self.untold = Free(len(faces))
+        self.told = [False] * len(faces)
+        self.front, self.young = [], []                     # young: (face, first corner), the youngest first
+        self.last_face, self.last_jump = NONE, 0
+        self.t1 = self.t2 = 108
+        self.k1 = self.k2 = 2
+        self.bits = Lazily(AdaptiveBit)
+        self.ranks, self.jumps = Lazily(lambda: AdaptiveUnsigned(32)), Lazily(lambda: AdaptiveSigned(32))
+        self.slots, self.first, self.guess = Mixer(3, 108), Mixer(4, 2), Mixer(4, 15)
+        self.l = [-1, -2, -3, -4, -5]
+        self.da, self.db, self.da2 = [0] * 4, [0] * 4, [0] * 4
+        self.g1 = self.g2 = 15
+        self.last_place = self.last_step = 0
+
+    def read(self, decoder):
+        self.decoder = decoder
+        order = []                                          # (restored face, first corner)
+        for _ in self.faces:
+            f = self.read_face()
+            start = self.read_first(f)
+            self.tell(f, start)
+            order.append((f, start))
+            corners = [self.faces[f][(start + q) % 3] for q in range(3)]
+            for q in range(3):
+                if self.number[corners[q]] == NONE:
+                    a, b = self.number[corners[(q + 2) % 3]], self.number[corners[(q + 1) % 3]]
+                    self.read_number(corners[q], q, a, b, self.across(f, (start + q) % 3, a, b))
+        for v in range(len(self.number)):
+            if self.number[v] == NONE:
+                self.read_number(v, 3, NONE, NONE, NONE)
+        return order, self.number
+
+    def neighbour(self, c):
+        """the face across a corner of level J"""
+        if c >= len(self.mesh.opp) or self.mesh.opp[c] == NONE:
+            return NONE
+        return self.mesh.opp[c] // 3
+
+    def filled_slots(self):
+        slots, among, seen = {}, [0] * 12, set()
+        for age, (f, start) in enumerate(self.young):
+            for k in range(3):
+                c = 3 * f + (start + k) % 3
+                if c >= len(self.mesh.opp):
+                    continue
+                d = self.mesh.opp[c]
+                places = [(k, self.neighbour(c))]
+                if d != NONE:
+                    places += [(3 + 2 * k, self.neighbour(self.mesh.next[d])),
+                               (4 + 2 * k, self.neighbour(self.mesh.prev[d]))]
+                for place, g in places:
+                    if g != NONE and not self.told[g] and g not in seen:
+                        seen.add(g)
+                        slots[9 * age + place] = g
+                        among[age] |= 1 << place
+        return slots, among
+
+    def read_face(self):
+        decoder, t1, t2 = self.decoder, self.t1, self.t2
+        place2 = 9 if t2 == 108 else t2 % 9
+        kinds = 3 * self.k1 + self.k2
+        slots, among = self.filled_slots()
+        self.front = [f for f in self.front if not self.told[f]]
+        if slots and bit(decoder, self.bits["kind", 0, kinds, t1], 30) == 1:
+            kind, ordered = 0, sorted(slots)
+            for s in ordered:
+                models = [self.bits["after", s, t1], self.bits["after2", s, t1, place2],
+                          self.bits["amongs", s, among[s // 9]]]
+                if s == ordered[-1] or limited_mix(self.slots, decoder, models, s) == 1:
+                    break
+            slot, f = s, slots[s]
+        elif self.front and bit(decoder, self.bits["kind", 1, kinds, t1], 30) == 1:
+            n = len(self.front)
+            r = min(self.ranks[bitlen(n)].read(decoder), n - 1)
+            kind, slot, f = 1, 108, self.front[n - 1 - r]
+        else:
+            left = self.untold.left
+            start = 0 if self.last_face == NONE else self.untold.rank(self.last_face)
+            d = self.jumps[self.last_jump].read(decoder)
+            kind, slot, f = 2, 108, left[clamp(start + d, 0, len(left) - 1)]
+            self.last_jump = bitlen(abs(d))
+        self.t2, self.t1 = self.t1, slot
+        self.k2, self.k1 = self.k1, kind
+        return f
+
+    def read_first(self, f):
+        decoder, t1 = self.decoder, self.t1
+        place2 = 9 if self.t2 == 108 else self.t2 % 9
+        corners = self.faces[f]
+        number = [1 << 32 if self.number[v] == NONE else self.number[v] for v in corners]
+        used = [int(self.number[v] != NONE) for v in corners]
+        age = 0 if t1 == 108 else t1 // 9
+        other = self.faces[self.young[age][0]] if age < len(self.young) else ()
+        shared = [int(v in other) for v in corners]
+        for turn in range(2):
+            a, b, c = turn, (turn + 1) % 3, (turn + 2) % 3
+            U = used[a] + 2 * used[b] + 4 * used[c]
+            S = shared[a] + 2 * shared[b] + 4 * shared[c]
+            O = int(number[a] < number[b]) + 2 * int(number[b] < number[c]) + 4 * int(number[c] < number[a])
+            models = [self.bits["use", turn, U], self.bits["edge", turn, t1, S],
+                      self.bits["edge2", turn, t1, place2, S], self.bits["numbers", turn, O + 8 * U]]
+            if limited_mix(self.first, decoder, models, turn) == 1:
+                return turn
+        return 2
+
+    def tell(self, f, start):
+        self.told[f] = True
+        self.untold.take(f)
+        self.last_face = f
+        self.young = [(f, start)] + self.young[:11]
+        for c in range(3 * f, 3 * f + 3):
+            g = self.neighbour(c)
+            if g != NONE and not self.told[g] and g not in self.front:
+                self.front.append(g)
+
+    def across(self, f, k, a, b):
+        g = self.neighbour(3 * f + k)
+        if g == NONE:
+            return NONE
+        ends = (self.faces[f][(k + 1) % 3], self.faces[f][(k + 2) % 3])
+        for v in self.faces[g]:
+            if v not in ends:
+                return self.number[v]
+        return NONE
+
+    def read_number(self, v, q, a, b, x):
+        decoder, l, t1 = self.decoder, self.l, self.t1
+
+        def sum_of(*terms):
+            return NONE if NONE in terms else sum(terms) % (1 << 32)
+
+        minus = NONE if x == NONE else -x
+        guesses = [
+            self.free.left[0], l[0] + 1, l[0] - 1, l[0] + 2, l[0] - 2, sum_of(a, b, minus), sum_of(a, self.da[q]),
+            sum_of(b, self.db[q]), l[0] + (l[0] - l[1]), sum_of(a, 1), sum_of(a, -1), sum_of(b, 1), sum_of(b, -1),
+            sum_of(a, 2 * self.da[q] - self.da2[q]), l[1] + (l[1] - l[3])]
+        guesses = [g if g == NONE else g % (1 << 32) for g in guesses]
+        C = q + 4 * int(a != NONE) + 8 * int(b != NONE)
+        found = 15
+        for s in range(15):
+            g = guesses[s]
+            if g == NONE or not self.free.has(g) or g in guesses[:s]:
+                continue
+            models = [self.bits["gafter", s, self.g1], self.bits["gafter2", s, self.g1, self.g2],
+                      self.bits["at", s, C], self.bits["with", s, t1, C]]
+            if limited_mix(self.guess, decoder, models, s) == 1:
+                found = s
+                break
+        if found < 15:
+            n = guesses[found]
+        else:
+            places = [guesses[6], guesses[7], guesses[5], a, b, l[0] % (1 << 32), l[1] % (1 << 32), l[2] % (1 << 32)]
+            p = 7
+            for i in range(7):
+                if places[i] != NONE and bit(decoder, self.bits["places", i, self.last_place], 30) == 1:
+                    p = i
+                    break
+            d = self.jumps["steps", p, min(self.last_step, 7)].read(decoder)
+            left = self.free.left
+            n = left[clamp(self.free.rank(min(places[p], len(self.number))) + d, 0, len(left) - 1)]
+            self.last_place, self.last_step = p, bitlen(abs(d))
+        self.free.take(n)
+        self.number[v] = n
+        self.g2, self.g1 = self.g1, found
+        if a != NONE:
+            self.da2[q], self.da[q] = self.da[q], n - a
+        if b != NONE:
+            self.db[q] = n - b
+        self.l = [n] + l[:4]
+
+
+# ----------------------------------------------------------------------------------------------------------------
+# 12.6 Attributes
+# ----------------------------------------------------------------------------------------------------------------
+
+VERTEX, FACE, CORNER, WHOLE = range(4)
+
+
+class Column:
+    def __init__(self, bits, whole, low, step):
+        self.bits, self.whole, self.low, self.step = bits, whole, low, step
+
+
+class Attribute:
+    def faux(self):
+        c = self.columns[0] if len(self.columns) == 1 else None
+        return self.of == FACE and self.kind == 7 and c is not None and c.whole and c.low == 0 and c.bits == 3
+
+    def normal(self):
+        return self.kind == 2 and self.of != WHOLE and self.width == 3
+
+    def on_levels(self):
+        return not self.faux() and not self.normal()
+
+    def real(self, row):
+        """what a row stands for"""
+        if self.columns:
+            row = [c.low + c.step * n for c, n in zip(self.columns, row)]
+        elif self.octahedron:
+            x, y, z = row
+            length = sqrt(x * x + y * y + z * z)
+            row = [v / length for v in row]
+        else:
+            return list(row)
+        return [f32(x) if self.type == 1 else x for x in row]
+
+
+def read_attributes(payload, offset):
+    """What the head says of them: attributes, textures, offset behind."""
+
+    def varint():
+        nonlocal offset
+        got = read_varint(payload, offset)
+        if got is None:
+            raise corrupt("the attributes in the head are not all there")
+        offset = got[1]
+        return got[0]
+
+    def take(n):
+        nonlocal offset
+        if offset + n > len(payload):
+            raise corrupt("the attributes in the head are not all there")
+        offset += n
+        return payload[offset - n:offset]
+
+    count, names = varint(), varint()
+    if count > 64 or names > 65535:
+        raise corrupt("too many attributes or textures")
+    attributes = []
+    for _ in range(count):
+        a = Attribute()
+        a.of, a.kind, a.type, a.width, coding = take(5)
+        a.columns, a.octahedron, a.exact = [], 0, None
+        if a.of > 3 or a.type > 2 or not 1 <= a.width <= 16:
+            raise corrupt("an attribute is none")
+        if 1 <= coding <= 32:
+            a.exact = ((coding - 1) % 2, (coding - 1) // 2 - 1)
+        elif coding != 0:
+            a.octahedron = coding - 64
+            if not 2 <= a.octahedron <= 20 or not a.normal():
+                raise corrupt("an attribute's coding is unknown")
+        for _ in range(a.width if coding == 0 else 0):
+            bits = take(1)[0]
+            if bits >= 128:
+                low = varint()
+                column = Column(bits - 128, True, -float((low + 1) // 2) if low & 1 else float(low // 2), 1.0)
+            else:
+                low, step = struct.unpack("<2d", take(16))
+                column = Column(bits, False, low, step)
+            if column.bits > 24 or not (isfinite(column.low) and isfinite(column.low + column.step * (1 << 24))
+                                        and column.step > 0):
+                raise corrupt("a column of an attribute is out of range")
+            a.columns.append(column)
+        varint()
+        a.name = take(varint())
+        attributes.append(a)
+    return attributes, [take(varint()) for _ in range(names)], offset
+
+
+class LatticeReader:
+    """A row on lattices."""
+
+    def __init__(self, bits):
+        self.bits = bits
+        self.mixing = Mixing(6144)
+        self.ratio, self.error = ([[0] * 8 for _ in bits] for _ in range(2))
+        self.last, self.last_off = [0] * len(bits), [0] * len(bits)
+        self.shape = [[[Shape() for _ in range(3)] for _ in range(8)] for _ in bits]
+
+    def read(self, decoder, a, b, l, r):
+        def log(x):
+            return min(log8(abs(x) + 8), 255)
+
+        row, off = [], 0
+        for k, bits in enumerate(self.bits):
+            if bits == 0:
+                row.append(0)
+                continue
+            A = int(a[k]) if a else 1 << (bits - 1)
+            B = int(b[k]) if b else A
+            mean = 8 * (A + B)
+            bend = across = 0
+            if l and r:
+                bend = 2 * (int(l[k]) + int(r[k]) - A - B)
+                across = int(l[k]) - int(r[k])
+            spread = log(8 * (abs(A - B) + abs(across)) + 8)
+            ratio, error = self.ratio[k], self.error[k]
+            seen = log(off) if k > 0 else error[0]
+            lastoff = self.last_off[k]
+            centres = [mean, mean + bend, 16 * A, 16 * B, mean + lastoff,
+                       mean + (off if k > 0 else trunc_div(lastoff, 2)), self.last[k], mean - bend]
+            scales = []
+            for i in range(8):
+                expected = max(0, spread + trunc_div(ratio[i], 16))
+                scales.append(min(trunc_div(3 * expected + error[i], 8), 95))
+            best = ratio.index(min(ratio))
+            context = (4 * min(k, 2) + clamp(trunc_div(seen - 24, 16), 0, 3),
+                       int(b is not None) + 4 * int(l is not None and r is not None) + 5 * int(A == B),
+                       min(scales[0] // 6, 11))
+            opinions = [(centres[i], scales[i], self.shape[k][i][min(scales[i] // 16, 2)]) for i in range(8)]
+            reader = ValueReader(decoder, self.mixing, opinions, context, None)
+            X = reader.around(0, 1 << bits, clamp((centres[best] + 8) >> 4, 0, (1 << bits) - 1),
+                              max(0, trunc_div(scales[best] - 20, 4)))
+            off = 16 * X - mean
+            for i in range(8):
+                e = log(16 * X - centres[i])
+                ratio[i] += trunc_div((e - spread) * 16 - ratio[i], 32)
+                error[i] = e
+            self.last_off[k], self.last[k] = off, 16 * X
+            row.append(float(X))
+        return row
+
+
+def on_octahedron(v, radius):
+    s = abs(v[0]) + abs(v[1]) + abs(v[2])
+    if s == 0:
+        return [0, 0, radius]
+    w = largest_axis(v)
+    row, left = [0, 0, 0], radius
+    for k in ((w + 1) % 3, (w + 2) % 3):
+        n = int(floor(abs(v[k]) / s * radius + 0.5))
+        row[k] = -n if v[k] < 0 else n
+        left -= n
+    row[w] = -left if v[w] < 0 else left
+    return row
+
+
+def largest_axis(v):
+    return [abs(x) for x in v].index(max(abs(x) for x in v))
+
+
+def expected_normals(positions, faces, of):
+    of_faces, of_vertices = [], [[0.0] * 3 for _ in positions]
+    for t in faces:
+        p, q, r = (positions[v] for v in t)
+        d = [float(q[k] - p[k]) for k in range(3)]
+        e = [float(r[k] - p[k]) for k in range(3)]
+        n = [d[(k + 1) % 3] * e[(k + 2) % 3] - d[(k + 2) % 3] * e[(k + 1) % 3] for k in range(3)]
+        of_faces.append(n)
+        for v in t:
+            for k in range(3):
+                of_vertices[v][k] += n[k]
+
+    def unit(n):
+        length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
+        return [x / length if length > 0 else 0.0 for x in n]
+
+    if of == FACE:
+        return [unit(n) for n in of_faces]
+    units = [unit(n) for n in of_vertices]
+    return units if of == VERTEX else [units[v] for t in faces for v in t]
+
+
+class Channel:
+    """An attribute being read: its rows and what is learned."""
+
+    def __init__(self, attribute):
+        self.a = attribute
+        self.rows, self.old = [], []
+        if attribute.octahedron:
+            self.turned = AdaptiveBit()
+            self.lattice = LatticeReader([attribute.octahedron + 1] * 2)
+        elif attribute.columns:
+            self.lattice = LatticeReader([c.bits for c in attribute.columns])
+        else:
+            self.numbers = ExactNumbers(attribute.exact[0], attribute.exact[1], attribute.width)
+        self.kept, self.single, self.same, self.other = (bits_of(4) for _ in range(4))
+        self.last = 0
+
+    def row(self, decoder, a=None, b=None, l=None, r=None):
+        if self.a.octahedron:
+            return self.octahedron_row(decoder, a)
+        if self.a.columns:
+            return self.lattice.read(decoder, a, b, l, r)
+        row, onward, off = [], 0.0, 0.0
+        for k in range(self.a.width):
+            x = a[k] if a and isfinite(a[k]) else 0.0
+            y = (b[k] if isfinite(b[k]) else 0.0) if b else x
+            p = 0.5 * x + 0.5 * y + onward
+            v = self.numbers.read(decoder, k, p, max(abs(0.5 * x - 0.5 * y), 0.5 * off))
+            off = abs(v - p)
+            onward = v - p if self.a.kind == 1 and k < 2 and isfinite(off) else 0.0
+            off = off if isfinite(off) else 0.0
+            row.append(v)
+        return row
+
+    def octahedron_row(self, decoder, a):
+        radius = 1 << (self.a.octahedron - 1)
+        w = largest_axis(a)
+        u, v = (w + 1) % 3, (w + 2) % 3
+        cells = self.lattice.read(decoder, [a[u] + radius, a[v] + radius], None, None, None)
+        row = [0, 0, 0]
+        row[u], row[v] = int(cells[0]) - radius, int(cells[1]) - radius
+        left = max(0, radius - abs(row[u]) - abs(row[v]))
+        negative = a[w] < 0
+        if left > 0 and bit(decoder, self.turned, 255) == 1:
+            negative = not negative
+        row[w] = -left if negative else left
+        return row
+
+    def before(self, i):
+        """the rows before the i-th, and before that"""
+        return (self.rows[i - 1] if i > 0 else None, self.rows[i - 2] if i > 1 else None)
+
+    def near_faces(self, mesh, f):
+        found = [self.rows[mesh.opp[c] // 3] for c in range(3 * f, 3 * f + 3)
+                 if mesh.opp[c] != NONE and mesh.opp[c] // 3 < f]
+        if not found:
+            return (self.rows[f - 1] if f > 0 else None, None)
+        return (found[0], found[-1] if len(found) > 1 else None)
+
+    def read_base(self, decoder, mesh, glue):
+        if self.a.of == WHOLE:
+            self.rows.append(self.row(decoder))
+        elif self.a.of == VERTEX:
+            for v in range(mesh.vertices):
+                first = glue.first_of(v) if glue else v
+                self.rows.append(self.rows[first] if first != v else self.row(decoder, *self.before(v)))
+        elif self.a.of == FACE:
+            for f in range(mesh.faces):
+                self.rows.append(self.row(decoder, *self.near_faces(mesh, f)))
+        else:
+            self.rows = [None] * len(mesh.V)
+            last = None
+            for v in range(mesh.vertices):
+                def expect(c):
+                    known = [self.rows[d] for d in (mesh.next[c], mesh.prev[c]) if mesh.V[d] < v]
+                    return (known + [None, None])[:2] + [None, None] if known else [last, None, None, None]
+                self.new_vertex(decoder, mesh.corners[v], expect)
+                if mesh.corners[v]:
+                    last = self.rows[mesh.corners[v][0]]
+
+    def read_split(self, decoder, parent, mesh, descent):
+        if self.a.of == WHOLE:
+            return
+        if self.a.of == VERTEX:
+            for v in range(parent.vertices, mesh.vertices):
+                a, b = descent.parents[v - parent.vertices][:2]
+                c = descent.edge[v - parent.vertices]
+                l = r = None
+                if c != NONE and parent.opp[c] != NONE:
+                    l, r = self.rows[parent.V[c]], self.rows[parent.V[parent.opp[c]]]
+                self.rows.append(self.row(decoder, self.rows[a], self.rows[b], l, r))
+            return
+        self.old = self.rows
+        if self.a.of == FACE:
+            self.rows = []
+            self.split_faces(decoder, mesh, descent)
+            return
+        self.rows = [None] * len(mesh.V)
+        for v in range(mesh.vertices):
+            def expect(c):
+                return self.sources(parent, descent.sources[c])
+            if mesh.corners[v]:
+                (self.old_vertex if v < parent.vertices else self.new_vertex)(decoder, mesh.corners[v], expect)
+
+    def split_faces(self, decoder, mesh, descent):
+        f = 0
+        while f < mesh.faces:
+            end = f
+            while end < mesh.faces and descent.face[end] == descent.face[f]:
+                end += 1
+            P = self.old[descent.face[f]]
+            self.last = bit(decoder, self.kept[self.last + 2 * int(end - f > 1)], 255)
+            for g in range(f, end):
+                if self.last == 1 or bit(decoder, self.same[0], 255) == 1:
+                    self.rows.append(P)
+                else:
+                    self.rows.append(self.row(decoder, P, self.near_faces(mesh, g)[0]))
+            f = end
+
+    def sources(self, parent, pair):
+        a, b = (NONE if c == NONE else self.old[c] for c in pair)
+        l = r = None
+        if pair[0] != NONE and pair[1] != NONE:
+            c = 3 * (pair[0] // 3) + 3 - pair[0] % 3 - pair[1] % 3
+            d = parent.opp[c]
+            if (d != NONE and same_row(self.old[parent.next[c]], self.old[parent.prev[d]])
+                    and same_row(self.old[parent.prev[c]], self.old[parent.next[d]])):
+                l, r = self.old[c], self.old[d]
+        return [None if a == NONE else a, None if b == NONE else b, l, r]
+
+    def old_vertex(self, decoder, fan, expect):
+        alike = all(same_row(expect(c)[0], expect(fan[0])[0]) for c in fan)
+        self.last = bit(decoder, self.kept[self.last + 2 * int(not alike)], 255)
+        kept = self.last
+        for j, c in enumerate(fan):
+            near = expect(c)
+            if kept == 1 or bit(decoder, self.same[1], 255) == 1:
+                self.rows[c] = near[0]
+            else:
+                self.other_row(decoder, fan, j, near[0], near)
+
+    def new_vertex(self, decoder, fan, expect):
+        if not fan:
+            return
+        near = [expect(c) for c in fan]
+        self.rows[fan[0]] = self.row(decoder, *near[0])
+        single = 0
+        if len(fan) > 1:
+            alike = all(expects_same(near[0], n) for n in near)
+            single = self.last = bit(decoder, self.single[self.last + 2 * int(not alike)], 255)
+        for j in range(1, len(fan)):
+            before = self.rows[fan[j - 1]]
+            if single == 1 or bit(decoder, self.same[2 + int(not expects_same(near[j], near[j - 1]))], 255) == 1:
+                self.rows[fan[j]] = before
+            else:
+                self.other_row(decoder, fan, j, before, near[j])
+
+    def other_row(self, decoder, fan, j, different, near):
+        others = []
+        for c in reversed(fan[:j]):
+            x = self.rows[c]
+            if len(others) < 4 and not any(same_row(x, y) for y in [different] + others):
+                others.append(x)
+        for n, x in enumerate(others):
+            if bit(decoder, self.other[n], 255) == 1:
+                self.rows[fan[j]] = x
+                return
+        self.rows[fan[j]] = self.row(decoder, *near)
+
+    def read_rest(self, decoder, known, count, positions, faces):
+        if self.a.of == WHOLE:
+            return
+        if self.a.normal():
+            for n in expected_normals(positions, faces, self.a.of):
+                if self.a.octahedron:
+                    n = on_octahedron(n, 1 << (self.a.octahedron - 1))
+                elif self.a.columns:
+                    n = [clamp(floor((x - c.low) / c.step + 0.5), 0, (1 << c.bits) - 1)
+                         for x, c in zip(n, self.a.columns)]
+                self.rows.append(self.row(decoder, n))
+            return
+        for i in range(0 if self.a.faux() else known, count):
+            self.rows.append(self.row(decoder, *self.before(i)))
+
+
+def same_row(x, y):
+    if x is None or y is None:
+        return x is y
+    return [struct.pack("<d", v) for v in x] == [struct.pack("<d", v) for v in y]
+
+
+def expects_same(x, y):
+    return (same_row(x[0], y[0]) and same_row(x[1], y[1])) or (same_row(x[0], y[1]) and same_row(x[1], y[0]))
+
+
+class Descent:
+    """Where the elements of a level come from."""
+
+    def __init__(self, parent, mesh, split):
+        self.parents, self.edge = [], []
+        for c, f in split.origin:
+            self.edge.append(c)
+            self.parents.append((parent.V[parent.next[c]], parent.V[parent.prev[c]]) if c != NONE
+                                else tuple(parent.V[3 * f:3 * f + 2]))
+        self.face = []
+        for f in range(parent.faces):
+            kind = "centre" if split.centre[f] != NONE else (split.splits[f], split.diagonal[f])
+            self.face += [f] * len(DESCENDANTS[kind])
+        self.sources = []
+        for c, v in enumerate(mesh.V):
+            at = {parent.V[d]: d for d in range(3 * self.face[c // 3], 3 * self.face[c // 3] + 3)}
+            if v < parent.vertices:
+                self.sources.append((at.get(v, NONE), NONE))
+            else:
+                a, b = (at.get(u, NONE) for u in self.parents[v - parent.vertices])
+                self.sources.append((NONE, NONE) if NONE in (a, b) else (a, b))
+        for fan in mesh.corners:
+            for way in (fan, fan[::-1]):
+                last = (NONE, NONE)
+                for c in way:
+                    if self.sources[c][0] == NONE:
+                        self.sources[c] = last
+                    else:
+                        last = self.sources[c]
+
+
+class Attributes:
+    def __init__(self, head):
+        self.channels = [Channel(a) for a in head.attributes]
+
+    def levels(self):
+        return [c for c in self.channels if c.a.on_levels()]
+
+    def restore(self, number, turned, mesh, faces):
+        """12.6, The rest: from level J to the restored mesh. number: of the vertices of level J."""
+        for c in self.levels():
+            if c.a.of == VERTEX:
+                first = {}
+                for v, n in enumerate(number):
+                    first.setdefault(n, v)
+                c.rows = [c.rows[first[n]] for n in range(len(first))]
+            elif c.a.of == CORNER:
+                for f in range(mesh.faces):
+                    if turned[f]:
+                        c.rows[3 * f + 1], c.rows[3 * f + 2] = c.rows[3 * f + 2], c.rows[3 * f + 1]
+
+    def read_rest(self, decoder, number, turned, mesh, positions, faces):
+        self.restore(number, turned, mesh, faces)
+        known = (len(set(number)), mesh.faces, 3 * mesh.faces)
+        count = (len(positions), len(faces), 3 * len(faces))
+        for c in self.channels:
+            i = min(c.a.of, CORNER)
+            c.read_rest(decoder, known[i], count[i], positions, faces)
+
+    def digest(self):
+        return xxh32(b"".join(struct.pack("<d", x) for c in self.channels for row in c.rows for x in row))
+
+    def put_in_order(self, order, number):
+        vertex = [0] * len(number)
+        for v, n in enumerate(number):
+            vertex[n] = v
+        for c in self.channels:
+            if c.a.of == VERTEX:
+                c.rows = [c.rows[v] for v in vertex]
+            elif c.a.faux():
+                c.rows = [[float(sum((int(c.rows[f][0]) >> (start + k) % 3 & 1) << k for k in range(3)))]
+                          for f, start in order]
+            elif c.a.of == FACE:
+                c.rows = [c.rows[f] for f, _ in order]
+            elif c.a.of == CORNER:
+                c.rows = [c.rows[3 * f + (start + k) % 3] for f, start in order for k in range(3)]
+
+    def values(self):
+        """of each attribute, what its rows stand for"""
+        return [(c.a, [c.a.real(row) for row in c.rows]) for c in self.channels]
 
 
 # ----------------------------------------------------------------------------------------------------------------
@@ -2394,7 +3107,10 @@ class Decoder:
         self.mesh = None
         self.positions = None
         self.restored = None                                # 12.3: lattice positions, faces
+        self.turned = None                                  # 12.3: of the faces of level J
         self.exact = None                                   # 12.4
+        self.order = None                                   # 12.5: (restored face, first corner), numbers of vertices
+        self.attributes = Attributes(self.head) if head.features & 8 else None
 
     def decode(self, wanted):
         """Up to level `wanted`. Raises an Outcome; if that is Truncated, result() is what there is."""
@@ -2461,6 +3177,8 @@ class Decoder:
             if vertices != head.vertices[i] or len(triangles) != head.faces[i]:
                 raise corrupt("number of vertices or faces of level %d" % i)
             mesh = Mesh(vertices, triangles)
+            parent = self.mesh
+            descent = Descent(parent, mesh, split) if self.attributes else None
             if head.compact:
                 self.positions, whole = self.compact.read_split(
                     decoder, self.mesh, mesh, self.positions, split, head.shift[i])
@@ -2468,6 +3186,15 @@ class Decoder:
                 details, whole = self.details.read(decoder, self.mesh, self.positions, split)
                 self.positions = synthesis(self.mesh, self.positions, split, details, head.lifting, self.glue)
             self.mesh = mesh
+        if self.attributes and head.kind[i] != PRECISE:
+            if not whole:
+                self.attributes = None                          # 12.6 says what they are then; not of use here
+            else:
+                for channel in self.attributes.levels():
+                    if head.kind[i] == BASE:
+                        channel.read_base(decoder, self.mesh, self.glue)
+                    else:
+                        channel.read_split(decoder, parent, self.mesh, descent)
         self.level = i
         return whole
 
@@ -2483,28 +3210,47 @@ class Decoder:
                 raise corrupt("length of chunk %s" % kind)
             if not chunk.whole:
                 raise Outcome("Truncated", "in chunk %s" % kind)
-            if kind in "OA":
-                print("note: the document does not say what is in chunk %s; skipped" % kind, file=sys.stderr)
-                continue
             if chunk.length < 4:
                 raise corrupt("chunk %s is too short" % kind)
             digest = int.from_bytes(chunk.payload[:4], "little")
             decoder = RangeDecoder(chunk.payload[4:])
             try:
-                if kind == "R":
-                    restored = Restoration(head, self.mesh, self.positions, self.glue).read(decoder)
-                    computed = lattice_digest(restored[0], [v for t in restored[1] for v in t])
-                else:
-                    exact = read_exact(decoder, head, self.restored[0] if self.restored else self.positions)
-                    computed = xxh32(b"".join(struct.pack("<3d", *p) for p in exact))
+                computed = getattr(self, "read_" + kind)(decoder)
             except Exhausted:
                 raise corrupt("the range decoder is exhausted in chunk %s" % kind)
             if computed != digest:
                 raise Outcome("ChecksumMismatch", "digest of chunk %s" % kind)
-            if kind == "R":
-                self.restored = restored
-            else:
-                self.exact = exact
+        if self.order and self.attributes:
+            self.attributes.put_in_order(*self.order)
+
+    def finest(self):
+        """The restored mesh, or level J if there is nothing to restore: lattice positions, faces."""
+        V = self.mesh.V
+        return self.restored or (self.positions, [tuple(V[c:c + 3]) for c in range(0, len(V), 3)])
+
+    def read_R(self, decoder):
+        restoration = Restoration(self.head, self.mesh, self.positions, self.glue)
+        self.restored = restoration.read(decoder)
+        self.turned, self.number = restoration.turned, restoration.number
+        return lattice_digest(self.restored[0], [v for t in self.restored[1] for v in t])
+
+    def read_O(self, decoder):
+        positions, faces = self.finest()
+        self.order = Order(self.mesh, len(positions), faces).read(decoder)
+        order, number = self.order
+        told = [number[faces[f][(start + k) % 3]] for f, start in order for k in range(3)]
+        return xxh32(b"".join(struct.pack("<I", n) for n in number + told))
+
+    def read_X(self, decoder):
+        self.exact = read_exact(decoder, self.head, self.finest()[0])
+        return xxh32(b"".join(struct.pack("<3d", *p) for p in self.exact))
+
+    def read_A(self, decoder):
+        positions, faces = self.finest()
+        number = self.number if self.turned else list(range(self.mesh.vertices))
+        turned = self.turned or [0] * self.mesh.faces
+        self.attributes.read_rest(decoder, number, turned, self.mesh, positions, faces)
+        return self.attributes.digest()
 
     def result(self):
         """Vertices in model units and faces of what there is."""
@@ -2521,6 +3267,13 @@ class Decoder:
                         for L in likely(mesh, positions, shift, self.glue)]
         else:
             vertices = [model_position(head, P) for P in positions]
+        if self.order:
+            order, number = self.order
+            placed = [None] * len(vertices)
+            for v, n in enumerate(number):
+                placed[n] = vertices[v]
+            vertices = placed
+            faces = [tuple(number[faces[f][(start + k) % 3]] for k in range(3)) for f, start in order]
         return vertices, faces
 
 
@@ -2538,7 +3291,7 @@ def write_obj(path, vertices, faces):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Reference decoder of .wmc mesh files, version 0.2.")
+    parser = argparse.ArgumentParser(description="Reference decoder of .wmc mesh files, version 0.3.")
     parser.add_argument("file")
     parser.add_argument("--level", type=int, help="the level to decode; the finest if not given")
     parser.add_argument("--output", help="an OBJ file to write")

@@ -68,6 +68,43 @@ void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults,
 	    true));
 }
 
+void addAttributeParameters(RichParameterList& list)
+{
+	list.addParam(RichInt(
+	    "texcoord_bits", usualBits(AttributeKind::TexCoord),
+	    "Texture coordinates (bits, 0 = exact)",
+	    "Texture coordinates are rounded to 2^bits steps over their range, 1 to 24 bits. 12 bits "
+	    "are half a texel of a 2048 pixel texture. 0, and <i>Exact coordinates</i>, keep every "
+	    "number. The log says what was rounded."));
+	list.addParam(RichInt(
+	    "normal_bits", usualBits(AttributeKind::Normal), "Normals (bits, 0 = exact)",
+	    "The same of normals, if they are saved. 10 bits are about a tenth of a degree.", true));
+	list.addParam(RichInt(
+	    "quality_bits", usualBits(AttributeKind::Quality), "Quality and radius (bits, 0 = exact)",
+	    "The same of quality and radius of vertices and faces. Whole numbers are always exact, as "
+	    "colours are.",
+	    true));
+}
+
+void setAttributeBits(const RichParameterList& list, bool exact, MeshData& mesh)
+{
+	const auto bitsOf = [&](const char* name, AttributeKind kind) {
+		const int bits = integerOf(list, name, usualBits(kind));
+		if (bits < 0 || bits > 24)
+			throw MLException(QString("Wavemesh: '%1' has to be 0 to 24.").arg(name));
+		return bits;
+	};
+	const int texCoord = bitsOf("texcoord_bits", AttributeKind::TexCoord);
+	const int normal   = bitsOf("normal_bits", AttributeKind::Normal);
+	const int quality  = bitsOf("quality_bits", AttributeKind::Quality);
+	for (Attribute& a : mesh.attributes)
+		a.bits = exact                                                                 ? 0
+		         : a.kind == AttributeKind::TexCoord                                   ? texCoord
+		         : a.kind == AttributeKind::Normal                                     ? normal
+		         : a.kind == AttributeKind::Quality || a.kind == AttributeKind::Radius ? quality
+		                                                                               : 0;
+}
+
 static int choiceOf(const RichParameterList& list, const QString& name, int missing, int last)
 {
 	const int choice = integerOf(list, name, missing);

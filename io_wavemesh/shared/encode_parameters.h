@@ -17,6 +17,14 @@ void addEncodeParameters(
 /// Appends what a file may promise besides its lattice: exact coordinates, the order.
 void addPromiseParameters(RichParameterList& list);
 
+/// Appends how precisely attributes are kept.
+void addAttributeParameters(RichParameterList& list);
+
+/// Sets the bits of the attributes of `mesh` as these parameters say.
+/// @param exact  keep them all
+/// @throws MLException naming the parameter that is out of range
+void setAttributeBits(const RichParameterList& list, bool exact, MeshData& mesh);
+
 /// Reads them back, the promises too; what a script leaves out keeps the value of `defaults`.
 /// @throws MLException naming the parameter that is out of range
 EncodeOptions encodeOptions(const RichParameterList& list, const EncodeOptions& defaults);

@@ -96,13 +96,41 @@ unsigned channelsOf(const MeshModel& layer, int saveMask)
 	return channels;
 }
 
-unsigned drawnVertexChannels(const MeshModel& layer)
+unsigned drawnChannels(const MeshModel& layer)
 {
-	const unsigned drawn = kVertexColour | kVertexQuality | kVertexRadius | kVertexTexCoord;
-	unsigned channels    = channelsOf(layer, saveDefault()) & drawn;
-	if (channels & kVertexTexCoord)
-		channels |= kTextures;
-	return channels;
+	const unsigned drawn = kVertexColour | kVertexQuality | kVertexRadius | kVertexTexCoord |
+	                       kFaceColour | kFaceQuality | kWedgeTexCoord | kTextures;
+	return channelsOf(layer, saveDefault()) & drawn;
+}
+
+QStringList attributesRounded(const StreamInfo& info)
+{
+	const auto nameOf = [](AttributeKind kind) {
+		switch (kind) {
+		case AttributeKind::Normal:
+			return "normals";
+		case AttributeKind::TexCoord:
+			return "texture coordinates";
+		case AttributeKind::Radius:
+			return "radius";
+		case AttributeKind::Quality:
+			return "quality";
+		default:
+			return "attributes";
+		}
+	};
+	QStringList names;
+	for (const AttributeInfo& a : info.attributes)
+		if (a.bits > 0)
+			names << QString("%1 %2 to steps of %3 (%4 bits)")
+			             .arg(
+			                 a.of == AttributeOf::Vertex ? "vertex"
+			                 : a.of == AttributeOf::Face ? "face"
+			                                             : "wedge")
+			             .arg(nameOf(a.kind))
+			             .arg(a.step, 0, 'g', 3)
+			             .arg(a.bits);
+	return names;
 }
 
 QStringList attributesNotKept(const MeshModel& layer, unsigned channels)

@@ -4,7 +4,7 @@
 /// of a layer) and the codec's channels, and the way from the one to the other.
 #pragma once
 
-#include <wavemesh/mesh_data.h>
+#include <wavemesh/codec.h>
 #include <wavemesh/vcg_attributes.h>
 
 #include <common/ml_document/mesh_model.h>
@@ -25,11 +25,14 @@ int saveDefault();
 /// among them.
 unsigned channelsOf(const MeshModel& layer, int saveMask);
 
-/// The channels of vertices that `layer` has and that it is drawn with: what coarse levels show.
-unsigned drawnVertexChannels(const MeshModel& layer);
+/// The channels that `layer` has and that it is drawn with: what coarse levels show.
+unsigned drawnChannels(const MeshModel& layer);
 
 /// What `layer` has and `channels` do not, in a user's words: "vertex colours", ...
 QStringList attributesNotKept(const MeshModel& layer, unsigned channels);
+
+/// The attributes that a file has rounded, each with its step, in a user's words.
+QStringList attributesRounded(const StreamInfo& info);
 
 /// The layer's mesh with `channels`, as the codec takes it.
 MeshData meshDataOf(const MeshModel& layer, unsigned channels);

@@ -21,11 +21,8 @@ struct EvenCounts
 };
 
 /// Everything that learns.
-template <class Coder>
 struct Models
 {
-	explicit Models(Coder& coder) : wide(coder, {true, 3}, 2), narrow(coder, {false, 2}, 1) {}
-
 	AdaptiveBit bits[8];
 	AdaptiveUnsigned<32> words;
 	AdaptiveUnsigned<5> few;
@@ -35,7 +32,7 @@ struct Models
 	PairMixer<2> pair {4};
 	MixedValue mixed {6144};
 	ResidualShape shapes[MixedValue::kMaxOpinions];
-	ExactSyntax<Coder> wide, narrow;
+	ExactSyntax wide {{true, 3}, 2}, narrow {{false, 2}, 1};
 };
 
 std::uint64_t bitsOf(double x)
@@ -53,7 +50,7 @@ double numberOf(std::uint64_t bits)
 }
 
 template <std::size_t N, class Coder>
-std::uint64_t codeMixed(Coder& coder, Models<Coder>& m, ByteSource& in)
+std::uint64_t codeMixed(Coder& coder, Models& m, ByteSource& in)
 {
 	const std::uint32_t what = in.byte();
 	const int bits           = int(what % 25);
@@ -82,7 +79,7 @@ double finite(double x)
 
 /// Codes one value; what it is and by which model is drawn.
 template <class Coder>
-std::uint64_t codeOne(Coder& coder, Models<Coder>& m, ByteSource& in)
+std::uint64_t codeOne(Coder& coder, Models& m, ByteSource& in)
 {
 	const std::uint32_t what = in.byte(), context = what >> 4;
 	switch (what % 12) {
@@ -111,12 +108,18 @@ std::uint64_t codeOne(Coder& coder, Models<Coder>& m, ByteSource& in)
 		    coder, std::array<AdaptiveBit*, 2> {&m.bits[3], &m.bits[4]}, int(context % 4),
 		    in.flag(), 127);
 	case 9:
-		return context % 2 ? codeMixed<MixedValue::kFewOpinions>(coder, m, in)
-		                   : codeMixed<MixedValue::kMaxOpinions>(coder, m, in);
+		switch (context % 4) {
+		case 0:
+			return codeMixed<MixedValue::kFewOpinions>(coder, m, in);
+		case 1:
+			return codeMixed<MixedValue::kSomeOpinions>(coder, m, in);
+		default:
+			return codeMixed<MixedValue::kMaxOpinions>(coder, m, in);
+		}
 	case 10: {
 		const double near   = finite(numberOf(in.word(8))),
 		             spread = std::abs(finite(numberOf(in.word(8))));
-		return bitsOf(m.wide.code(near, spread, context % 2, numberOf(in.word(8))));
+		return bitsOf(m.wide.code(coder, near, spread, context % 2, numberOf(in.word(8))));
 	}
 	default: {
 		const double near  = double(std::int16_t(in.word(2))) / 100;
@@ -125,7 +128,7 @@ std::uint64_t codeOne(Coder& coder, Models<Coder>& m, ByteSource& in)
 		std::memcpy(&value, &bits, sizeof value);
 		if (std::isnan(value)) // a quiet one, as floats widen to
 			value = std::numeric_limits<float>::quiet_NaN();
-		return bitsOf(m.narrow.code(near, 0.01 * context, 0, double(value)));
+		return bitsOf(m.narrow.code(coder, near, 0.01 * context, 0, double(value)));
 	}
 	}
 }
@@ -134,7 +137,7 @@ std::uint64_t codeOne(Coder& coder, Models<Coder>& m, ByteSource& in)
 template <class Coder>
 std::vector<std::uint64_t> codeAll(Coder& coder, const std::uint8_t* bytes, std::size_t size)
 {
-	const auto models = std::make_unique<Models<Coder>>(coder);
+	const auto models = std::make_unique<Models>();
 	std::vector<std::uint64_t> values;
 	for (ByteSource in(bytes, size); !in.empty() && values.size() < 3000;) {
 		const std::uint64_t value = codeOne(coder, *models, in);

@@ -5,7 +5,9 @@
 #include "container/container.h"
 #include "mesh_families.h"
 
+#include <cmath>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
@@ -87,6 +89,62 @@ MeshData notManifold()
 	return m;
 }
 
+/// One attribute of each coding: on lattices, on an octahedron, exact; of vertices, faces, corners
+/// with a seam, the mesh; and edges of polygons.
+MeshData withAttributes(MeshData m)
+{
+	const auto add = [&](AttributeOf of, AttributeKind kind, NumberType type, int columns,
+	                     int bits) {
+		Attribute a;
+		a.of         = of;
+		a.kind       = kind;
+		a.type       = type;
+		a.components = columns;
+		a.bits       = bits;
+		m.attributes.push_back(a);
+		return std::ref(m.attributes.back().values);
+	};
+	m.attributes.reserve(8);
+	auto& colour = add(AttributeOf::Vertex, AttributeKind::Colour, NumberType::Integer, 4, 0).get();
+	auto& quality = add(AttributeOf::Vertex, AttributeKind::Quality, NumberType::Float, 1, 0).get();
+	auto& normal  = add(AttributeOf::Vertex, AttributeKind::Normal, NumberType::Float, 3, 8).get();
+	for (const auto& p : m.positions) {
+		colour.insert(
+		    colour.end(), {std::floor(99 + 40 * p[0]), std::floor(150 + 9 * p[1] * p[2]), 7, 255});
+		quality.push_back(double(float(p[0] * p[1] / 3)));
+		const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+		for (const double x : p)
+			normal.push_back(length > 0 ? double(float(x / length)) : 0);
+	}
+	auto& face  = add(AttributeOf::Face, AttributeKind::Quality, NumberType::Integer, 1, 0).get();
+	auto& edges = add(AttributeOf::Face, AttributeKind::FauxEdges, NumberType::Integer, 1, 0).get();
+	auto& wedge =
+	    add(AttributeOf::Corner, AttributeKind::TexCoord, NumberType::Double, 3, 10).get();
+	for (std::size_t f = 0; f < m.triangles.size(); ++f) {
+		const double chart = m.positions[m.triangles[f][0]][0] > 0.2 ? 1 : 0;
+		face.push_back(double(f / 16));
+		edges.push_back(f % 3 == 1 ? double(1 << f % 2) : 0);
+		for (const Index v : m.triangles[f])
+			wedge.insert(wedge.end(), {m.positions[v][1] + chart, m.positions[v][2], chart});
+	}
+	auto& placed =
+	    add(AttributeOf::Mesh, AttributeKind::Transform, NumberType::Double, 16, 0).get();
+	for (int k = 0; k < 16; ++k)
+		placed.push_back(k % 5 == 0 ? 1 : 0.25 * k);
+	m.textures = {"wood.png"};
+	return m;
+}
+
+/// The finest mesh is as it was, in all.
+Bytes promisingFileOf(const MeshData& mesh, Mode mode, bool order, bool exact)
+{
+	EncodeOptions o;
+	o.mode      = mode;
+	o.keepOrder = order;
+	o.exact     = exact;
+	return encode(mesh, o).value().bytes;
+}
+
 std::vector<Golden> goodOnes()
 {
 	std::vector<Golden> all;
@@ -126,6 +184,13 @@ std::vector<Golden> goodOnes()
 	add("compact_24_bits", compactFileOf(makeFlippedSphere(150, 3), 24).bytes);
 	add("compact_centres", compactFileOf(makeKleetope(makeIcosphere(2)), 10).bytes);
 	add("compact_not_manifold", compactFileOf(notManifold(), 12).bytes);
+	add("compact_order", promisingFileOf(makeBumpySphere(120, 1), Mode::Compact, true, false));
+	add("order_exact_not_manifold", promisingFileOf(notManifold(), Mode::Classic, true, true));
+	add("compact_exact", promisingFileOf(makeTerrain(100, 2), Mode::Compact, false, true));
+	add("compact_attributes",
+	    promisingFileOf(withAttributes(makeBumpySphere(160, 1)), Mode::Compact, false, false));
+	add("attributes_order_not_manifold",
+	    promisingFileOf(withAttributes(notManifold()), Mode::Classic, true, true));
 	add("far_away_wide_head", fileOf(moved(makeIcosphere(2), 1e7 + 0.1, 0.3, -5), 12, 0, Wgc::Off));
 	return all;
 }

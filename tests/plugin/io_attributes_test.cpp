@@ -331,15 +331,58 @@ TEST(IoAttributes, LevelsWithTextureCoordinatesOfVerticesHaveTheirTexture)
 		check(*m);
 }
 
-TEST(IoAttributes, TheFinestLevelsTextureIsFoundWhenACoarseOneWasOpened)
+TEST(IoAttributes, EveryLevelHasTextureCoordinatesOfWedgesAndColoursOfFaces)
 {
 	MeshLabHost& host = freshHost();
-	texture(openIsland(host));
+	MeshModel& from   = openIsland(host);
+	texture(from);
+	from.updateDataMask(MeshModel::MM_FACECOLOR);
+	for (CFaceO& f : from.cm.face)
+		f.C() = f.cP(0)[0] > 0 ? vcg::Color4b(200, 0, 0, 255) : vcg::Color4b(0, 200, 0, 255);
+	const auto check = [](const MeshModel& layer) {
+		ASSERT_TRUE(layer.hasDataMask(MeshModel::MM_WEDGTEXCOORD));
+		ASSERT_TRUE(layer.hasDataMask(MeshModel::MM_FACECOLOR));
+		EXPECT_EQ(layer.getTexture("wood.png").size(), QSize(4, 3));
+		for (const CFaceO& f : layer.cm.face) {
+			EXPECT_TRUE(f.cC()[0] + f.cC()[1] == 200) << "a colour of the original";
+			for (int k = 0; k < 3; ++k) { // coarse positions are rounded
+				const double off = f.cWT(k).U() - f.cP(k)[1] / 3;
+				EXPECT_LT(std::min(std::abs(off), std::abs(off - 0.5)), 0.15);
+			}
+		}
+	};
 	MeshModel& layer = reopened(host, {}, {{"level", "1"}});
-	EXPECT_TRUE(layer.cm.textures.empty());
-	host.apply("Wavemesh: Browse Levels", {{"level", "-1"}});
-	EXPECT_TRUE(layer.hasDataMask(MeshModel::MM_WEDGTEXCOORD));
-	EXPECT_EQ(layer.getTexture("wood.png").size(), QSize(4, 3));
+	check(layer);
+	for (const char* level : {"0", "3", "-1"}) {
+		host.apply("Wavemesh: Browse Levels", {{"level", level}});
+		check(layer);
+	}
+	for (const MeshModel* m : freshHost().open(scratch("attributes.wmc"), {{"all_levels", "true"}}))
+		check(*m);
+}
+
+TEST(IoAttributes, TextureCoordinatesAreRoundedAsTheLogSays)
+{
+	MeshLabHost& host = freshHost();
+	MeshModel& from   = openIsland(host);
+	texture(from);
+	from.updateDataMask(MeshModel::MM_VERTQUALITY);
+	for (auto& v : from.cm.vert)
+		v.Q() = v.cP()[0] / 3;
+	host.document().Log.clear();
+	const MeshModel& back = reopened(host, {{"keep_order", "true"}, {"quality_bits", "0"}});
+	QStringList lines;
+	host.document().Log.print(lines);
+	const QStringList found = lines.filter("Rounded: wedge texture coordinates");
+	ASSERT_EQ(found.size(), 1);
+	EXPECT_TRUE(found.front().contains("12 bits")) << qPrintable(found.front());
+	EXPECT_FALSE(found.front().contains("quality")) << qPrintable(found.front());
+	for (std::size_t f = 0; f < from.cm.face.size(); ++f)
+		for (int k = 0; k < 3; ++k)
+			ASSERT_NEAR(back.cm.face[f].cWT(k).U(), from.cm.face[f].cWT(k).U(), 0.001);
+	for (std::size_t v = 0; v < from.cm.vert.size(); ++v)
+		ASSERT_EQ(back.cm.vert[v].cQ(), from.cm.vert[v].cQ());
+	EXPECT_THROW(host.save(scratch("no.wmc"), {{"texcoord_bits", "25"}}), MLException);
 }
 
 TEST(IoAttributes, NumbersThatMeshLabCannotHoldBecomeTheNearestThatItCan)

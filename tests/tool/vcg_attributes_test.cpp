@@ -55,6 +55,8 @@ void makeFull(FullMesh& m)
 	fromMeshData(makeIcosphere(3), m);
 	auto heat  = vcg::tri::Allocator<FullMesh>::GetPerVertexAttribute<float>(m, "heat");
 	auto depth = vcg::tri::Allocator<FullMesh>::GetPerFaceAttribute<double>(m, "depth");
+	auto flow  = vcg::tri::Allocator<FullMesh>::GetPerVertexAttribute<vcg::Point3f>(m, "flow");
+	auto axis  = vcg::tri::Allocator<FullMesh>::GetPerFaceAttribute<vcg::Point3d>(m, "axis");
 	for (std::size_t i = 0; i < m.vert.size(); ++i) {
 		const int n = int(i);
 		V& v        = m.vert[i];
@@ -68,6 +70,7 @@ void makeFull(FullMesh& m)
 		if (n % 3 == 0)
 			v.SetS();
 		heat[i] = 0.7f * float(n);
+		flow[i] = vcg::Point3f(0.1f * float(n), -1, 2);
 	}
 	for (std::size_t i = 0; i < m.face.size(); ++i) {
 		const int n = int(i);
@@ -85,6 +88,7 @@ void makeFull(FullMesh& m)
 		if (n % 2 == 0)
 			f.SetF(n % 3);
 		depth[i] = 0.1 * n;
+		axis[i]  = vcg::Point3d(0.1, n, 0.3 * n);
 	}
 	m.textures = {"a.png", "b.png"};
 	m.Tr.SetIdentity();

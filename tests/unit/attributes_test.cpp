@@ -206,6 +206,170 @@ TEST(Attributes, CoarseLevelsHaveThoseOfTheirVertices)
 	}
 }
 
+/// A sphere with two charts: an attribute of corners (u, v, chart), on each side of x = 0.3.
+MeshData withCharts()
+{
+	MeshData mesh   = makeBumpySphere(500, 3);
+	Attribute wedge = make(AttributeOf::Corner, AttributeKind::TexCoord, NumberType::Double, 3, "");
+	for (const auto& t : mesh.triangles) {
+		const double sum =
+		    mesh.positions[t[0]][0] + mesh.positions[t[1]][0] + mesh.positions[t[2]][0];
+		const double chart = sum > 0.9 ? 1 : 0; // two pieces
+		for (const std::uint32_t v : t)
+			wedge.values.insert(
+			    wedge.values.end(),
+			    {mesh.positions[v][1] + 10 * chart, mesh.positions[v][2], chart});
+	}
+	mesh.attributes = {wedge};
+	return mesh;
+}
+
+TEST(Attributes, CornersOfCoarseFacesHaveRowsOfTheirVertices_AndOfOneChartWhereTheyCan)
+{
+	EncodeOptions o;
+	o.mode          = Mode::Classic;
+	o.lifting       = kLiftingOff;
+	const auto file = encode(withCharts(), o);
+	ASSERT_TRUE(file.ok());
+	const auto levels = levelsOf(file->bytes);
+	ASSERT_GE(levels.size(), 5u);
+	using Row = std::array<double, 3>;
+	std::map<Row, std::vector<Row>> rowsAt; // by position
+	const auto rowOf = [](const MeshData& m, std::size_t corner) {
+		const auto& values = m.attributes[0].values;
+		return Row {values[3 * corner], values[3 * corner + 1], values[3 * corner + 2]};
+	};
+	const MeshData& finest = levels.back().mesh;
+	for (std::size_t c = 0; c < 3 * finest.triangles.size(); ++c)
+		rowsAt[finest.positions[finest.triangles[c / 3][c % 3]]].push_back(rowOf(finest, c));
+	for (const Level& level : levels) {
+		ASSERT_EQ(level.mesh.attributes.size(), 1u);
+		ASSERT_EQ(level.mesh.attributes[0].values.size(), 9 * level.mesh.triangles.size());
+		for (std::size_t f = 0; f < level.mesh.triangles.size(); ++f) {
+			bool oneChart = false, could = false;
+			for (const double chart : {0.0, 1.0}) {
+				bool all = true, any = true;
+				for (std::size_t k = 0; k < 3; ++k) {
+					const auto& rows = rowsAt[level.mesh.positions[level.mesh.triangles[f][k]]];
+					const Row mine   = rowOf(level.mesh, 3 * f + k);
+					ASSERT_NE(std::find(rows.begin(), rows.end(), mine), rows.end());
+					all = all && mine[2] == chart;
+					any = any && std::any_of(rows.begin(), rows.end(), [&](const Row& r) {
+						      return r[2] == chart;
+					      });
+				}
+				oneChart = oneChart || all;
+				could    = could || (any && chart == rowOf(level.mesh, 3 * f)[2]);
+			}
+			ASSERT_TRUE(oneChart || !could) << f;
+		}
+	}
+}
+
+TEST(Attributes, APrefixHasThoseOfItsLevel)
+{
+	const auto file = encode(withAttributes(makeBumpySphere(400, 3), 1));
+	ASSERT_TRUE(file.ok());
+	for (std::size_t i = 0; i < file->info.levels.size(); ++i) {
+		DecodeOptions o;
+		o.level          = int(i);
+		const auto whole = decode(file->bytes.data(), file->bytes.size(), o);
+		const auto part  = decode(file->bytes.data(), file->info.levels[i].prefix, o);
+		ASSERT_TRUE(whole.ok() && part.ok()) << i;
+		EXPECT_EQ(part->mesh.attributes.size(), i + 1 < file->info.levels.size() ? 6u : 7u);
+		EXPECT_EQ(whatDiffers(whole->mesh, part->mesh), "") << i;
+	}
+}
+
+TEST(Attributes, InsideALevelThoseThatDidNotArriveAreLikeTheirParents)
+{
+	MeshData mesh = makeBumpySphere(400, 3);
+	Attribute quality =
+	    make(AttributeOf::Vertex, AttributeKind::Quality, NumberType::Double, 1, "");
+	for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+		quality.values.push_back(double(v * 7919 % 1000));
+	mesh.attributes = {quality};
+	EncodeOptions classic;
+	classic.mode    = Mode::Classic;
+	const auto file = encode(mesh, classic);
+	ASSERT_TRUE(file.ok());
+	const LevelInfo& last = file->info.levels.back();
+	ASSERT_GT(last.attributeBytes, 60u);
+	DecodeOptions o;
+	o.maxBytes = file->info.levels[file->info.levels.size() - 2].prefix + last.connectivityBytes +
+	             last.geometryBytes + last.attributeBytes / 2;
+	const auto part = decode(file->bytes.data(), file->bytes.size(), o);
+	ASSERT_EQ(part.status().code, StatusCode::Truncated);
+	ASSERT_EQ(part->mesh.positions.size(), mesh.positions.size());
+	ASSERT_EQ(part->mesh.attributes[0].values.size(), part->mesh.positions.size());
+	for (const double x : part->mesh.attributes[0].values)
+		EXPECT_TRUE(x >= 0 && x < 1000);
+}
+
+TEST(Attributes, AtStatedBitsAreOffByHalfAStep_WholeColumnsNotAtAll)
+{
+	for (const int bits : {1, 8, 12, 24}) {
+		MeshData mesh = withAttributes(shuffled(makeBumpySphere(300, 3), 2), 1);
+		for (Attribute& a : mesh.attributes)
+			a.bits = bits;
+		EncodeOptions o;
+		o.keepOrder     = true;
+		const auto file = encode(mesh, o);
+		ASSERT_TRUE(file.ok()) << file.status().what;
+		const auto back = decode(file->bytes.data(), file->bytes.size());
+		ASSERT_TRUE(back.ok()) << back.status().what;
+		const auto near = [&](std::size_t i, std::size_t column, double step) {
+			const Attribute &x = mesh.attributes[i], &y = back->mesh.attributes[i];
+			for (std::size_t k = column; k < x.values.size(); k += std::size_t(x.components))
+				if (!(std::abs(x.values[k] - y.values[k]) <= 0.5 * step + 3e-7))
+					return false;
+			return true;
+		};
+		for (std::size_t i = 0; i < mesh.attributes.size(); ++i)
+			EXPECT_EQ(back->mesh.attributes[i].bits, file->info.attributes[i].bits);
+		EXPECT_TRUE(sameBits(mesh.attributes[0].values, back->mesh.attributes[0].values));
+		EXPECT_EQ(file->info.attributes[1].bits, bits);
+		EXPECT_TRUE(near(1, 0, file->info.attributes[1].step));
+		// Infinities among them: all is kept.
+		EXPECT_EQ(file->info.attributes[2].bits, 0);
+		EXPECT_TRUE(sameBits(mesh.attributes[2].values, back->mesh.attributes[2].values));
+		EXPECT_EQ(file->info.attributes[5].bits, bits);
+		EXPECT_TRUE(near(5, 0, file->info.attributes[5].step));
+		EXPECT_TRUE(near(5, 1, file->info.attributes[5].step));
+		EXPECT_TRUE(near(5, 2, 0)); // numbers of textures
+	}
+}
+
+TEST(Attributes, EdgesOfPolygonsStayOnTheirEdgesWithoutTheOrder)
+{
+	MeshData mesh  = shuffled(makeGrid(7, 6), 5);
+	Attribute faux = make(AttributeOf::Face, AttributeKind::FauxEdges, NumberType::Integer, 1, "");
+	const auto isInside = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+		return a[0] != b[0] && a[1] != b[1]; // the diagonals
+	};
+	for (const auto& t : mesh.triangles) {
+		int bits = 0;
+		for (std::size_t k = 0; k < 3; ++k)
+			bits |= isInside(mesh.positions[t[k]], mesh.positions[t[(k + 1) % 3]]) << k;
+		faux.values.push_back(bits);
+	}
+	mesh.attributes = {faux};
+	const auto file = encode(mesh);
+	ASSERT_TRUE(file.ok());
+	const auto back = decode(file->bytes.data(), file->bytes.size());
+	ASSERT_TRUE(back.ok());
+	for (std::size_t f = 0; f < back->mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const auto& t = back->mesh.triangles[f];
+			EXPECT_EQ(
+			    (int(back->mesh.attributes[0].values[f]) >> k) & 1,
+			    isInside(back->mesh.positions[t[k]], back->mesh.positions[t[(k + 1) % 3]]));
+		}
+	DecodeOptions coarse;
+	coarse.level = 0;
+	EXPECT_TRUE(decode(file->bytes.data(), file->bytes.size(), coarse)->mesh.attributes.empty());
+}
+
 TEST(Attributes, SmoothColoursAndSeamsCostLittle)
 {
 	MeshData mesh     = makeBumpySphere(4000, 3);

@@ -159,6 +159,10 @@ std::uint64_t fingerprint(const MeshData& mesh)
 		fnv.add(p.data(), sizeof p);
 	for (const auto& t : mesh.triangles)
 		fnv.add(t.data(), sizeof t);
+	for (const Attribute& a : mesh.attributes)
+		fnv.add(a.values.data(), a.values.size() * sizeof a.values[0]);
+	for (const std::string& name : mesh.textures)
+		fnv.add(name.data(), name.size());
 	return fnv.value();
 }
 

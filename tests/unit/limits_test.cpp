@@ -111,8 +111,11 @@ TEST(Limits, DeclaredButAbsentAttributesTakeNoMemory)
 	a.components = 10;
 	a.values.assign(10 * mesh.positions.size(), 0.5);
 	mesh.attributes.assign(60, a);
-	Parts parts                   = partsOf(mesh);
-	parts.head.attributeWidths[0] = 1024;
+	Parts parts = partsOf(mesh);
+	for (Channel& channel : parts.head.channels) {
+		ASSERT_TRUE(channel.columns.empty());
+		channel.components = Channel::kMostColumns;
+	}
 	for (const Bytes& stream : emptyStreams()) {
 		parts.replace(kAttributes, stream);
 		expectLittleMemoryFor(parts.file());

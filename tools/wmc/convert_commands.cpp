@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // encode, decode, info.
+#include "attribute_options.h"
 #include "codec_options.h"
 #include "commands.h"
 #include "console.h"
@@ -18,6 +19,7 @@ struct Encode
 {
 	std::string in, out;
 	CodecOptions codec;
+	AttributeOptions attributes;
 	bool json = false;
 
 	int run() const
@@ -25,7 +27,8 @@ struct Encode
 		std::error_code ignored;
 		if (std::filesystem::equivalent(in, out, ignored))
 			throw UsageError(out + ": this is the mesh to encode; name another file to write");
-		const MeshData mesh = loadMesh(in);
+		MeshData mesh = loadMesh(in, attributes.channels());
+		attributes.setBits(mesh, codec.exact);
 		double seconds = 0, back = 0;
 		const EncodedMesh file = encodeMesh(in, mesh, codec.toEncodeOptions(), &seconds);
 		// Nothing is written that does not decode.
@@ -73,7 +76,11 @@ struct Decode
 			warn(
 			    messageOf(in, decoded.status()) + "; wrote level " +
 			    std::to_string(decoded->level) + " of " + std::to_string(info.finestLevel()));
-		saveMesh(decoded->mesh, out);
+		std::string notHeld;
+		for (const std::string& name : saveMesh(decoded->mesh, out))
+			notHeld += (notHeld.empty() ? "" : ", ") + name;
+		if (!notHeld.empty())
+			warn(out + ": this format cannot hold " + notHeld);
 		if (json) {
 			Json j = {{"file", in}};
 			j.update(toJson(info));
@@ -152,6 +159,7 @@ void addEncode(CLI::App& app, Command& chosen)
 	command->add_option("IN", c->in, "Mesh to read: .ply, .obj, .off or .stl")->required();
 	command->add_option("OUT", c->out, "File to write, .wmc")->required();
 	c->codec.addTo(*command);
+	c->attributes.addTo(*command);
 	addJson(*command, c->json);
 	command->callback([&chosen, c] { chosen = [c] { return c->run(); }; });
 }
@@ -183,8 +191,9 @@ void addDecode(CLI::App& app, Command& chosen)
 	    *command, "--max-level-share", c->limits.maxLevelShare,
 	    "more faces in all levels together, in multiples of the finest level's");
 	addJson(*command, c->json);
-	command->footer(
-	    "A file that is cut off gives the mesh that its bytes still hold, and a warning.");
+	command->footer("A file that is cut off gives the mesh that its bytes still hold, and a "
+	                "warning. So does an\n"
+	                "attribute that the format of OUT cannot hold.");
 	command->callback([&chosen, c] { chosen = [c] { return c->run(); }; });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "info_json.h"
 
+#include "attribute_options.h"
 #include "codec_options.h"
 #include "console.h"
 
@@ -10,7 +11,9 @@ namespace wavemesh::tool {
 
 Json toJson(const StreamInfo& info)
 {
-	const std::uint64_t other = info.bytes - info.connectivityBytes - info.geometryBytes;
+	const std::uint64_t attributes = info.features.attributeBytes;
+	const std::uint64_t other =
+	    info.bytes - info.connectivityBytes - info.geometryBytes - attributes;
 	Json j;
 	j["version"]  = std::to_string(info.versionMajor) + "." + std::to_string(info.versionMinor);
 	j["mode"]     = nameOf(info.mode);
@@ -26,6 +29,7 @@ Json toJson(const StreamInfo& info)
 	    {"total", bitsPerVertex(info.bytes, info.vertices)},
 	    {"connectivity", bitsPerVertex(info.connectivityBytes, info.vertices)},
 	    {"geometry", bitsPerVertex(info.geometryBytes, info.vertices)},
+	    {"attributes", bitsPerVertex(attributes, info.vertices)},
 	    {"other", bitsPerVertex(other, info.vertices)}};
 	const StreamFeatures& f = info.features;
 	j["lossless"]           = {{"lattice", true}, {"float", f.exact}, {"order", f.orderKept}};
@@ -35,7 +39,20 @@ Json toJson(const StreamInfo& info)
 	         {"order", f.orderBytes},
 	         {"exact", f.exactBytes},
 	         {"attributes", f.attributeBytes}};
-	j["levels"] = Json::array();
+	j["attributes"] = Json::array();
+	for (const AttributeInfo& a : info.attributes)
+		j["attributes"].push_back(
+		    {{"of", nameOf(a.of)},
+		     {"kind", nameOf(a.kind)},
+		     {"name", a.name},
+		     {"columns", a.components},
+		     {"type", nameOf(a.type)},
+		     {"bits", a.bits},
+		     {"step", a.step},
+		     {"bytes", a.bytes},
+		     {"bits_per_vertex", bitsPerVertex(a.bytes, info.vertices)}});
+	j["textures"] = info.textures;
+	j["levels"]   = Json::array();
 	for (std::size_t i = 0; i < info.levels.size(); ++i) {
 		const LevelInfo& level = info.levels[i];
 		j["levels"].push_back(
@@ -53,16 +70,35 @@ Json toJson(const StreamInfo& info)
 	return j;
 }
 
+static void printAttributes(const StreamInfo& info)
+{
+	if (info.attributes.empty() && info.textures.empty())
+		return;
+	std::printf("\n");
+	Table table({"attribute", "columns", "type", "bits", "step", "bytes", "bpv"});
+	for (const AttributeInfo& a : info.attributes)
+		table.add(
+		    {nameOf(a.of, a.kind, a.name), std::to_string(a.components), nameOf(a.type),
+		     a.bits > 0 ? std::to_string(a.bits) : "exact",
+		     a.bits > 0 ? significant(a.step, 4) : "-", grouped(a.bytes),
+		     fixed(bitsPerVertex(a.bytes, info.vertices), 2)});
+	table.print();
+	for (const std::string& name : info.textures)
+		std::printf("texture %s\n", name.c_str());
+}
+
 void printInfo(const StreamInfo& info)
 {
 	auto bpv = [&](std::uint64_t bytes) { return fixed(bitsPerVertex(bytes, info.vertices), 2); };
 	std::printf(
 	    "%s vertices, %s faces, %s bytes, %s bits per vertex\n", grouped(info.vertices).c_str(),
 	    grouped(info.faces).c_str(), grouped(info.bytes).c_str(), bpv(info.bytes).c_str());
+	const std::uint64_t attributes = info.features.attributeBytes;
 	std::printf(
-	    "connectivity %s, geometry %s, other %s bits per vertex\n",
+	    "connectivity %s, geometry %s, attributes %s, other %s bits per vertex\n",
 	    bpv(info.connectivityBytes).c_str(), bpv(info.geometryBytes).c_str(),
-	    bpv(info.bytes - info.connectivityBytes - info.geometryBytes).c_str());
+	    bpv(attributes).c_str(),
+	    bpv(info.bytes - info.connectivityBytes - info.geometryBytes - attributes).c_str());
 	std::printf(
 	    "version %d.%d, mode %s, %d bits per coordinate (step %s), lifting %s, wgc %s\n",
 	    info.versionMajor, info.versionMinor, nameOf(info.mode).c_str(), info.bits,
@@ -81,7 +117,7 @@ void printInfo(const StreamInfo& info)
 	feature(f.restored, "what the original has and a manifold has not", f.restorationBytes);
 	feature(f.orderKept, "order", f.orderBytes);
 	feature(f.exact, "exact coordinates", f.exactBytes);
-	feature(f.attributes, "attributes", f.attributeBytes);
+	printAttributes(info);
 	std::printf("\n");
 	Table table({"level", "kind", "vertices", "faces", "bytes", "up to here", "bpv", "error"});
 	for (std::size_t i = 0; i < info.levels.size(); ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // report: rate and distortion of every level.
+#include "attribute_options.h"
 #include "codec_options.h"
 #include "commands.h"
 #include "console.h"
@@ -30,6 +31,7 @@ struct Report
 {
 	std::string in, csv;
 	CodecOptions codec;
+	AttributeOptions attributes {"none", ""};
 	std::size_t samples = 0;
 	bool configs = false, json = false;
 
@@ -64,7 +66,8 @@ struct Report
 
 	int run() const
 	{
-		const MeshData mesh = loadMesh(in);
+		MeshData mesh = loadMesh(in, attributes.channels());
+		attributes.setBits(mesh, codec.exact);
 		if (mesh.triangles.empty())
 			throw Failure(in + ": there are no faces in it to measure distances from");
 		const std::size_t n =
@@ -201,6 +204,7 @@ void addReport(CLI::App& app, Command& chosen)
 	auto* command = app.add_subcommand("report", "Rate and distortion of every level of a mesh");
 	command->add_option("IN", c->in, "Mesh to read: .ply, .obj, .off or .stl")->required();
 	c->codec.addTo(*command);
+	c->attributes.addTo(*command);
 	command->add_flag(
 	    "--configs", c->configs,
 	    "The paper's three configurations and the compact mode in one report: I (lazy), II "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // verify: holds a file's promises against the original.
 #include "any_isomorphism.h"
+#include "attribute_check.h"
 #include "codec_options.h"
 #include "commands.h"
 #include "console.h"
@@ -9,6 +10,8 @@
 #include "isomorphism.h"
 #include "level_check.h"
 #include "mesh_files.h"
+
+#include <wavemesh/vcg_attributes.h>
 
 #include <chrono>
 #include <cmath>
@@ -94,7 +97,17 @@ bool hasMoved(const MeshData& coarse, const MeshData& fine)
 
 bool same(const MeshData& a, const MeshData& b)
 {
-	return a.positions == b.positions && a.triangles == b.triangles;
+	if (a.positions != b.positions || a.triangles != b.triangles ||
+	    a.attributes.size() != b.attributes.size())
+		return false;
+	for (std::size_t i = 0; i < a.attributes.size(); ++i)
+		if (a.attributes[i].values.size() != b.attributes[i].values.size() ||
+		    (!a.attributes[i].values.empty() &&
+		     std::memcmp(
+		         a.attributes[i].values.data(), b.attributes[i].values.data(),
+		         a.attributes[i].values.size() * sizeof(double)) != 0))
+			return false;
+	return true;
 }
 
 /// Every level decodes, as declared, manifold, with the topology of all others.
@@ -195,6 +208,16 @@ void checkMesh(
 		if (promises.back().broken.empty())
 			promises.back().broken = compare(onLattice(original, info), onLattice(decoded, info));
 	}
+	if (info.features.attributes) {
+		const auto labelled = [&](const MeshData& m) {
+			return info.features.exact ? bitForBit(m) : onLattice(m, info);
+		};
+		promises.push_back(
+		    {"attributes", promises.back().broken.empty()
+		                       ? whatDiffersInAttributes(
+		                             original, labelled(original), decoded, labelled(decoded), info)
+		                       : "the vertices differ already"});
+	}
 	if (!info.features.orderKept)
 		return;
 	promises.push_back({"order-preserving", ""});
@@ -217,7 +240,7 @@ struct Verify
 		const auto info  = readInfo(file.data(), file.size());
 		if (!info.ok())
 			throw Failure(messageOf(in, info.status()));
-		const MeshData mesh = loadMesh(original);
+		const MeshData mesh = loadMesh(original, kAllChannels);
 
 		std::vector<Promise> promises;
 		promises.push_back({"level table", checkTable(*info, file.size())});
@@ -284,7 +307,9 @@ void addVerify(CLI::App& app, Command& chosen)
 	command->footer(
 	    "Exit code 0 only if the finest level is the original on the file's lattice up to the\n"
 	    "numbering of vertices and faces, every level decodes, is manifold and as declared, and\n"
-	    "every declared prefix holds its level whole. 1 otherwise.");
+	    "every declared prefix holds its level whole. 1 otherwise. Attributes must be the "
+	    "original's,\n"
+	    "bit for bit, or within half the step that the file states.");
 	command->callback([&chosen, c] { chosen = [c] { return c->run(); }; });
 }
 

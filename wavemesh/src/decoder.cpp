@@ -28,7 +28,7 @@ struct Decoder::State
 	CornerTable table;
 	std::vector<LatticePoint> positions;         ///< cells of the level's precision
 	Glue glue;                                   ///< of the base mesh
-	std::unique_ptr<AttributeReader> attributes; ///< if their chunk is there, whole
+	std::unique_ptr<AttributeReader> attributes; ///< if the file has any
 	std::optional<MeshData> finished; ///< level J with what follows it, as far as it came
 	Status stopped;                   ///< not ok: no further level can come
 	Progress progress;                ///< of the level being read
@@ -53,7 +53,6 @@ struct Decoder::State
 	Status readChildren(const Refinement& refinement, const CornerTable& child);
 	Status readPrecise();
 	Status finish();
-	Chunk findAttributes() const;
 	Status advance();
 	bool goesOn(double fraction);
 	Progress watched(double from);
@@ -167,9 +166,11 @@ Status Decoder::State::readBase()
 	table     = std::move(base->table);
 	positions = std::move(base->positions);
 	glue      = std::move(base->glue);
-	if (const Chunk place = findAttributes(); place.whole) {
-		attributes = std::make_unique<AttributeReader>(head, place.payload, place.size);
-		attributes->advance(table.vertexCount, {}, glue);
+	if (head.has(kAttributes)) {
+		attributes = std::make_unique<AttributeReader>(head);
+		attributes->base(coder, table, glue);
+		if (coder.exhausted())
+			return ended("the attributes");
 	}
 	level = 0;
 	return {};
@@ -192,11 +193,13 @@ Status Decoder::State::readSplit()
 	CornerTable child = refine(table, refinement);
 	if (child.faceCount() != target.faces)
 		return wrongSize(child.faceCount(), "faces", target.faces);
-	const Status status =
+	Status status =
 	    head.mode == Mode::Classic ? readDetails(refinement) : readChildren(refinement, child);
 	if (status.ok() || status.code == StatusCode::Truncated) {
 		if (attributes)
-			attributes->advance(child.vertexCount, parentsOf(table, refinement), glue);
+			attributes->split(coder, table, child, refinement, parentsOf(table, refinement));
+		if (status.ok() && coder.exhausted())
+			status = ended("the attributes");
 		table = std::move(child);
 		++level;
 	}
@@ -297,23 +300,6 @@ Status Decoder::State::advance()
 	return {};
 }
 
-/// The chunk of the attributes, if the data have it whole; else one that is not. Looks at types and
-/// lengths of the chunks before it only: they are checked when their turn comes.
-Chunk Decoder::State::findAttributes() const
-{
-	for (std::size_t at = offset; head.has(kAttributes) && at < size;) {
-		const auto next = readChunkFrame(data, size, at);
-		if (!next.ok() || !next->whole)
-			break;
-		if (next->type == kFeatureChunk[kAttributes]) {
-			const auto checked = readChunk(data, size, at);
-			return checked.ok() ? *checked : Chunk();
-		}
-		at = next->end;
-	}
-	return {};
-}
-
 /// What follows the finest level. What came whole is applied even if more is missing.
 Status Decoder::State::finish()
 {
@@ -321,13 +307,13 @@ Status Decoder::State::finish()
 		return {StatusCode::ChecksumMismatch, "the finest mesh does not match its digest"};
 	if (head.features == 0)
 		return {};
-	Finish stage(head, table, positions, glue);
+	Finish stage(head, table, positions, glue, attributes.get());
 	Status status;
 	for (int f = 0; f < kFeatures && status.ok(); ++f)
 		if (head.has(Feature(f))) {
 			status = openFeature(Feature(f));
 			if (status.ok())
-				status = stage.apply(Feature(f), chunk.payload, chunk.size, attributes.get());
+				status = stage.apply(Feature(f), chunk.payload, chunk.size);
 		}
 	if (status.ok() || status.code == StatusCode::Truncated)
 		finished = stage.mesh();
@@ -463,8 +449,7 @@ MeshData Decoder::mesh() const
 			out.triangles[f][k] = s.table.vertex[3 * f + k];
 	if (s.attributes)
 		out.attributes = s.attributes->ofLevel();
-	if (!out.attributes.empty())
-		out.textures = s.attributes->textures();
+	out.textures = s.head.textures;
 	return out;
 }
 

@@ -3,13 +3,13 @@
 #include "encode/classic.h"
 #include "encode/compact.h"
 #include "finish/finish.h"
-#include "wavelet/lifting.h"
 
 #include <wavemesh/codec.h>
 
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <optional>
 
 namespace wavemesh {
 namespace {
@@ -127,14 +127,20 @@ public:
 			    makeLevels(mesh_, criterion, steeringFor(way.aim), stage.part(0, coarsened));
 			if (!levels)
 				return cancelled();
+			std::optional<AttributeLevels> attributes;
+			if (featuresFor(options_, original_, mesh_.cut) & (1 << kAttributes))
+				attributes.emplace(original_, mesh_, *levels);
 			const Stage writing = stage.part(coarsened, 1);
-			if (!(classic ? tryClassic(*levels, wgc, writing) : tryCompact(*levels, wgc, writing)))
+			if (!(classic ? tryClassic(*levels, attributes, wgc, writing)
+			              : tryCompact(*levels, attributes, wgc, writing)))
 				return cancelled();
 		}
 		return std::move(best_);
 	}
 
 private:
+	using Attributes = std::optional<AttributeLevels>;
+
 	static constexpr std::size_t kSmall = 4096; ///< vertices; their time is nothing
 	bool isSmall() const { return mesh_.positions.size() < kSmall; }
 	static constexpr std::size_t kLarge = 16384; ///< vertices; here speed counts
@@ -192,19 +198,20 @@ private:
 		return head;
 	}
 
-	bool tryClassic(Levels& levels, bool wgc, const Stage& stage)
+	bool tryClassic(Levels& levels, const Attributes& attributes, bool wgc, const Stage& stage)
 	{
 		Head head    = headOf(levels, Mode::Classic, wgc);
 		head.lifting = options_.mode == Mode::Classic ? options_.lifting : kLiftingOff;
 		std::vector<std::uint8_t> chunks;
-		const Parents parents = parentsFor(head, levels);
-		if (!writeClassic(levels, head, chunks, stage.part(0, written(true))))
+		auto writer = writerFor(attributes);
+		if (!writeClassic(levels, writer.get(), head, chunks, stage.part(0, written(true))))
 			return false;
-		keepIfSmaller(levels, parents, head, chunks);
+		keepIfSmaller(levels, writer.get(), head, chunks);
 		return stage(1);
 	}
 
-	bool tryCompact(const Levels& levels, bool wgc, const Stage& stage)
+	bool
+	tryCompact(const Levels& levels, const Attributes& attributes, bool wgc, const Stage& stage)
 	{
 		const std::vector<Plan> tries = plans();
 		for (std::size_t i = 0; i < tries.size(); ++i) {
@@ -214,9 +221,11 @@ private:
 			head.predictors = tries[i].predictors;
 			std::vector<std::uint8_t> chunks;
 			const Schedule schedule = makeSchedule(levels, mesh_.lattice.bits, tries[i].schedule);
-			if (!writeCompact(levels, schedule, head, chunks, part.part(0, written(false))))
+			auto writer             = writerFor(attributes);
+			if (!writeCompact(
+			        levels, schedule, writer.get(), head, chunks, part.part(0, written(false))))
 				return false;
-			keepIfSmaller(levels, parentsFor(head, levels), head, chunks);
+			keepIfSmaller(levels, writer.get(), head, chunks);
 			if (!part(1))
 				return false;
 		}
@@ -262,24 +271,20 @@ private:
 		return ways;
 	}
 
-	/// Of all vertices but the base mesh's, if anything asks for them.
-	static Parents parentsFor(const Head& head, const Levels& levels)
+	static std::unique_ptr<AttributeWriter> writerFor(const Attributes& attributes)
 	{
-		Parents all;
-		if (head.has(kAttributes))
-			for (const ReplayedLevel& level : levels.replay.levels) {
-				const Parents some = parentsOf(level.parent, level.refinement);
-				all.insert(all.end(), some.begin(), some.end());
-			}
-		return all;
+		return attributes ? std::make_unique<AttributeWriter>(*attributes) : nullptr;
 	}
 
 	void keepIfSmaller(
-	    const Levels& levels, const Parents& parents, Head& head, std::vector<std::uint8_t>& chunks)
+	    const Levels& levels,
+	    AttributeWriter* attributes,
+	    Head& head,
+	    std::vector<std::uint8_t>& chunks)
 	{
 		writeFinish(
 		    {original_, mesh_.cut, levels.replay.finest, levels.positions, levels.replay.source,
-		     levels.glue, parents},
+		     levels.glue, attributes},
 		    head, chunks);
 		EncodedMesh out;
 		writeHead(head, out.bytes);

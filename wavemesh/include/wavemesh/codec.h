@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace wavemesh {
@@ -100,17 +101,19 @@ struct LevelInfo
 	std::uint64_t bytes = 0;
 	std::uint64_t prefix =
 	    0; ///< length of the shortest prefix of the file that holds this level whole
-	/// Of `bytes`, those spent on connectivity and on geometry; the rest is headers and checksums.
+	/// Of `bytes`, those spent on connectivity, geometry and attributes; the rest is headers and
+	/// checksums.
 	std::uint64_t connectivityBytes = 0;
 	std::uint64_t geometryBytes     = 0;
+	std::uint64_t attributeBytes    = 0;
 	int bits                        = 0; ///< precision of the positions, bits per coordinate
 	/// Model units; an estimate from the details (docs/wmc_format.md), not a surface distance. 0
 	/// for the finest level.
 	double error = 0;
 };
 
-/// What the file keeps besides connectivity and lattice positions, and the bytes it takes. All of
-/// it follows the last level, and belongs to the finest mesh alone.
+/// What the file keeps besides connectivity and lattice positions, and the bytes it takes. All but
+/// the attributes follows the last level, and belongs to the finest mesh alone.
 struct StreamFeatures
 {
 	/// The original is no oriented manifold. Every level is one; the finest mesh is the original
@@ -123,8 +126,21 @@ struct StreamFeatures
 	std::uint64_t restorationBytes = 0;
 	std::uint64_t orderBytes       = 0;
 	std::uint64_t exactBytes       = 0;
-	std::uint64_t attributeBytes   = 0;
+	std::uint64_t attributeBytes   = 0; ///< in the levels and behind them
 	std::uint64_t attributeValues  = 0; ///< numbers in all attributes
+};
+
+/// What the head tells of an attribute.
+struct AttributeInfo
+{
+	AttributeOf of     = AttributeOf::Vertex;
+	AttributeKind kind = AttributeKind::Custom;
+	NumberType type    = NumberType::Float;
+	int components     = 1;
+	std::string name;
+	int bits            = 0; ///< of the numbers that are rounded; 0: none is
+	double step         = 0; ///< of these; they are off by half a step at most
+	std::uint64_t bytes = 0; ///< of the file, about
 };
 
 /// What the head of a file tells.
@@ -141,11 +157,14 @@ struct StreamInfo
 	std::uint32_t vertices = 0;      ///< of the original
 	std::uint32_t faces    = 0;
 	std::uint64_t bytes    = 0; ///< of the whole file
-	/// Bytes of the file spent on connectivity and geometry; the rest is headers and checksums.
+	/// Bytes of the file spent on connectivity and geometry; the rest is headers, checksums and
+	/// `features`.
 	std::uint64_t connectivityBytes = 0;
 	std::uint64_t geometryBytes     = 0;
 	StreamFeatures features;
-	std::vector<LevelInfo> levels; ///< coarsest first
+	std::vector<AttributeInfo> attributes; ///< in the order of MeshData's
+	std::vector<std::string> textures;     ///< names
+	std::vector<LevelInfo> levels;         ///< coarsest first
 
 	int finestLevel() const { return static_cast<int>(levels.size()) - 1; }
 };

@@ -31,20 +31,40 @@ enum class AttributeKind : std::uint8_t {
 	Transform = 8, ///< 4 by 4, by rows
 };
 
-/// What numbers an attribute holds. All are kept exactly.
+/// What numbers an attribute holds. All are kept exactly, unless Attribute::bits says otherwise.
 enum class NumberType : std::uint8_t {
 	Integer = 0, ///< magnitude up to 2^53
 	Float   = 1, ///< values of 32-bit floats
 	Double  = 2,
 };
 
+/// Attribute::bits that leave nothing to be seen for most: half a texel of a 2048 pixel texture, a
+/// fifth of a degree. 0, exact, for what has a meaning of its own.
+constexpr int usualBits(AttributeKind kind)
+{
+	switch (kind) {
+	case AttributeKind::TexCoord:
+		return 12;
+	case AttributeKind::Normal:
+		return 10;
+	case AttributeKind::Quality:
+	case AttributeKind::Radius:
+		return 16;
+	default:
+		return 0;
+	}
+}
+
 struct Attribute
 {
 	AttributeOf of     = AttributeOf::Vertex;
 	AttributeKind kind = AttributeKind::Custom;
 	NumberType type    = NumberType::Float;
-	int components     = 1;     ///< 1..16 numbers a row
-	std::string name;           ///< up to 255 bytes; may be empty
+	int components     = 1; ///< 1..16 numbers a row
+	std::string name;       ///< up to 255 bytes; may be empty
+	/// 0: every number is kept. 1..24: columns that hold other than whole numbers are rounded to
+	/// 2^bits - 1 steps over the largest of their ranges, each by half a step at most.
+	int bits = 0;
 	std::vector<double> values; ///< #rows by `components`
 };
 

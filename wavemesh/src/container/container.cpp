@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "container/container.h"
 
-#include "container/byte_io.h"
+#include "container/attribute_fields.h"
 #include "entropy/models.h"
 
 #include <cmath>
@@ -9,12 +9,11 @@
 namespace wavemesh {
 namespace {
 
-constexpr std::uint8_t kMagic[8]           = {0x8b, 'W', 'M', 'C', '\r', '\n', 0x1a, '\n'};
-constexpr std::size_t kChecksumSize        = 4;
-constexpr std::uint32_t kMaxLevels         = 4096;
-constexpr std::uint32_t kMaxElements       = 0x7fffffff / 3; ///< corners are 32-bit indices
-constexpr std::uint32_t kMaxAttributeWidth = 64 * 16;
-constexpr std::uint64_t kMaxFeatureBytes   = std::uint64_t {1} << 48; ///< sums stay below 2^64
+constexpr std::uint8_t kMagic[8]         = {0x8b, 'W', 'M', 'C', '\r', '\n', 0x1a, '\n'};
+constexpr std::size_t kChecksumSize      = 4;
+constexpr std::uint32_t kMaxLevels       = 4096;
+constexpr std::uint32_t kMaxElements     = 0x7fffffff / 3;          ///< corners are 32-bit indices
+constexpr std::uint64_t kMaxFeatureBytes = std::uint64_t {1} << 48; ///< sums stay below 2^64
 
 Status corruptHead(const char* why)
 {
@@ -88,12 +87,8 @@ bool visitFields(Io& io, Head& h)
 		io.varint(h.vertices);
 		io.varint(h.faces);
 	}
-	if (h.has(kAttributes))
-		for (std::uint32_t& width : h.attributeWidths) {
-			io.varint(width);
-			if (width > kMaxAttributeWidth)
-				return false;
-		}
+	if (h.has(kAttributes) && !visitAttributes(io, h.channels, h.textures))
+		return false;
 	for (int f = 0; f < kFeatures; ++f)
 		if (h.has(Feature(f)))
 			io.varint(h.featureBytes[std::size_t(f)]);
@@ -105,9 +100,9 @@ bool visitFields(Io& io, Head& h)
 
 /// The level table, finest first: each row next to the one it was coarsened to.
 template <class Coder>
-void codeRows(Coder& coder, Mode mode, std::vector<LevelRow>& rows)
+void codeRows(Coder& coder, Mode mode, bool hasAttributes, std::vector<LevelRow>& rows)
 {
-	AdaptiveUnsigned<32> vertices, faces, bytes, connectivity;
+	AdaptiveUnsigned<32> vertices, faces, bytes, connectivity, attributes;
 	AdaptiveSigned<32> removed;
 	AdaptiveSigned<9> error;
 	AdaptiveUnsigned<5> sharper;
@@ -140,8 +135,10 @@ void codeRows(Coder& coder, Mode mode, std::vector<LevelRow>& rows)
 		}
 		row.bytes             = std::uint32_t(bytes.code(coder, row.bytes));
 		row.connectivityBytes = std::uint32_t(connectivity.code(coder, row.connectivityBytes));
-		row.endsChunk         = codeBit(coder, endsChunk, row.endsChunk, 60);
-		const bool isPrecise  = mode == Mode::Compact && i > 0 &&
+		if (hasAttributes)
+			row.attributeBytes = std::uint32_t(attributes.code(coder, row.attributeBytes));
+		row.endsChunk        = codeBit(coder, endsChunk, row.endsChunk, 60);
+		const bool isPrecise = mode == Mode::Compact && i > 0 &&
 		                       codeBit(coder, precise, row.kind == LevelKind::Precise, 60);
 		row.kind = i == 0 ? LevelKind::Base : isPrecise ? LevelKind::Precise : LevelKind::Split;
 	}
@@ -157,7 +154,7 @@ Status checkRows(const std::vector<LevelRow>& rows, int bits)
 	for (std::size_t i = 0; i < rows.size(); ++i) {
 		const LevelRow& row = rows[i];
 		if (row.vertices > kMaxElements || row.faces > kMaxElements ||
-		    row.connectivityBytes > row.bytes)
+		    std::uint64_t(row.connectivityBytes) + row.attributeBytes > row.bytes)
 			return corruptHead("impossible counts in the level table");
 		if (i == 0) {
 			if (std::uint64_t(row.vertices) > 3 * std::uint64_t(row.faces))
@@ -278,7 +275,7 @@ void writeHead(const Head& head, std::vector<std::uint8_t>& file)
 	visitFields(out, copy);
 	out.varint(copy.rows.size());
 	RangeEncoder coder;
-	codeRows(coder, copy.mode, copy.rows);
+	codeRows(coder, copy.mode, copy.has(kAttributes), copy.rows);
 	const auto table = coder.finish();
 	out.bytes.insert(out.bytes.end(), table.begin(), table.end());
 	writeChunk(kHeadChunk, out.bytes, file);
@@ -328,7 +325,7 @@ Result<Head> readHead(const std::uint8_t* data, std::size_t size, std::size_t& e
 		return corruptHead("impossible fields");
 	head.rows.resize(count);
 	RangeDecoder coder(chunk->payload + in.position(), chunk->size - in.position());
-	codeRows(coder, head.mode, head.rows);
+	codeRows(coder, head.mode, head.has(kAttributes), head.rows);
 	if (coder.exhausted())
 		return corruptHead("the level table is cut");
 	if (Status s = checkRows(head.rows, head.lattice.bits); !s.ok())
@@ -357,9 +354,11 @@ StreamFeatures featuresOf(const Head& head)
 	out.orderBytes       = head.featureBytes[kOrder];
 	out.exactBytes       = head.featureBytes[kExact];
 	out.attributeBytes   = head.featureBytes[kAttributes];
-	out.attributeValues  = std::uint64_t(head.vertices) * head.attributeWidths[0] +
-	                      std::uint64_t(head.faces) * head.attributeWidths[1] +
-	                      3 * std::uint64_t(head.faces) * head.attributeWidths[2];
+	for (const LevelRow& row : head.rows)
+		out.attributeBytes += row.attributeBytes;
+	const std::uint64_t elements[4] = {head.vertices, head.faces, 3 * std::uint64_t(head.faces), 1};
+	for (const Channel& c : head.channels)
+		out.attributeValues += elements[std::size_t(c.of)] * c.width();
 	return out;
 }
 
@@ -379,6 +378,10 @@ StreamInfo describe(const Head& head, std::size_t headEnd)
 	info.vertices     = head.vertices;
 	info.faces        = head.faces;
 	info.features     = featuresOf(head);
+	info.textures     = head.textures;
+	for (const Channel& c : head.channels)
+		info.attributes.push_back(
+		    {c.of, c.kind, c.type, c.components, c.name, c.bits(), c.step(), c.bytes});
 
 	std::uint64_t begin = headEnd, previous = 0; // of the chunk; end of the level before
 	for (std::size_t i = 0, first = 0; i < head.rows.size(); ++i) {
@@ -400,10 +403,11 @@ StreamInfo describe(const Head& head, std::size_t headEnd)
 			level.bits              = head.lattice.bits - row.shift;
 			level.error             = head.lattice.step * errorFromCode(row.errorCode);
 			level.connectivityBytes = row.connectivityBytes;
-			level.geometryBytes     = row.bytes - row.connectivityBytes;
+			level.attributeBytes    = row.attributeBytes;
+			level.geometryBytes     = row.bytes - row.connectivityBytes - row.attributeBytes;
 			previous                = level.prefix;
 			info.connectivityBytes += row.connectivityBytes;
-			info.geometryBytes += row.bytes - row.connectivityBytes;
+			info.geometryBytes += level.geometryBytes;
 			info.levels.push_back(level);
 		}
 		begin += chunkSize(payload);

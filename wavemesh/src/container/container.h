@@ -4,6 +4,7 @@
 /// (docs/wmc_format.md, sections 2 and 3).
 #pragma once
 
+#include "attributes/channel.h"
 #include "mesh/quantization.h"
 #include "predict/predictor_set.h"
 
@@ -12,7 +13,7 @@
 namespace wavemesh {
 
 constexpr std::uint8_t kVersionMajor = 0;
-constexpr std::uint8_t kVersionMinor = 2;
+constexpr std::uint8_t kVersionMinor = 3;
 
 /// Chunk types are letters; lower case means that a decoder may skip the chunk.
 constexpr std::uint8_t kHeadChunk  = 'H';
@@ -23,7 +24,7 @@ enum Feature : std::uint8_t {
 	kRestoration = 0, ///< how the original's faces and vertices follow from the finest level's
 	kOrder       = 1, ///< the original's numbering
 	kExact       = 2, ///< the original's floating point numbers
-	kAttributes  = 3,
+	kAttributes  = 3, ///< those of what is on no level; the others are in the levels
 };
 constexpr int kFeatures                         = 4;
 constexpr std::uint8_t kFeatureChunk[kFeatures] = {'R', 'O', 'X', 'A'};
@@ -36,6 +37,7 @@ struct LevelRow
 	std::uint32_t faces             = 0;
 	std::uint32_t bytes             = 0; ///< of the chunk's payload
 	std::uint32_t connectivityBytes = 0; ///< of these
+	std::uint32_t attributeBytes    = 0; ///< of these
 	std::uint8_t errorCode          = 0; ///< see errorFromCode()
 	int shift = 0; ///< positions are known to cells 2^shift lattice units wide; 0 in classic files
 	bool endsChunk = false;
@@ -56,9 +58,9 @@ struct Head
 	std::uint32_t vertices = 0; ///< of the original; with kRestoration, else the finest level's
 	std::uint32_t faces    = 0;
 	std::array<std::uint64_t, kFeatures> featureBytes {}; ///< payloads of the features' chunks
-	/// With kAttributes: numbers for each vertex, face and corner.
-	std::array<std::uint32_t, 3> attributeWidths {};
-	std::vector<LevelRow> rows; ///< coarsest first
+	std::vector<Channel> channels;                        ///< with kAttributes
+	std::vector<std::string> textures;                    ///< names; with kAttributes
+	std::vector<LevelRow> rows;                           ///< coarsest first
 
 	bool has(Feature f) const { return (features >> f) & 1; }
 };

@@ -53,7 +53,12 @@ bool analyseAll(
 
 } // namespace
 
-bool writeClassic(Levels& levels, Head& head, std::vector<std::uint8_t>& chunks, const Stage& stage)
+bool writeClassic(
+    Levels& levels,
+    AttributeWriter* attributes,
+    Head& head,
+    std::vector<std::uint8_t>& chunks,
+    const Stage& stage)
 {
 	std::vector<LatticePoint>& positions = levels.positions;
 	const std::size_t splits = levels.splits(), total = positions.size();
@@ -77,6 +82,9 @@ bool writeClassic(Levels& levels, Head& head, std::vector<std::uint8_t>& chunks,
 	std::vector<Index> ignored;
 	BaseSyntax<RangeEncoder>(writer.coder(), head.lattice.bits, head.has(kRestoration))
 	    .write(base, ignored, &levels.group);
+	writer.attributesBegin();
+	if (attributes)
+		attributes->base(writer.coder(), levels.table(0), levels.glue);
 	writer.endLevel(row(LevelKind::Base, 0), splits == 0);
 	for (std::size_t i = 0; i < splits; ++i) {
 		ReplayedLevel& level = levels.replay.levels[i];
@@ -89,6 +97,11 @@ bool writeClassic(Levels& levels, Head& head, std::vector<std::uint8_t>& chunks,
 		    writer.coder(), detailModels, level.parent, level.refinement, positions)
 		    .code(a.details);
 		synthesise(a.parents, a.weights, a.details, positions);
+		writer.attributesBegin();
+		if (attributes)
+			attributes->split(
+			    writer.coder(), i + 1, level.parent, levels.table(i + 1), level.refinement,
+			    a.parents);
 		writer.endLevel(row(LevelKind::Split, i + 1), i + 1 == splits);
 		level = {};
 		a     = {};

@@ -81,6 +81,7 @@ std::vector<double> workOf(const Levels& levels, const Schedule& schedule, int l
 bool writeCompact(
     const Levels& levels,
     const Schedule& schedule,
+    AttributeWriter* attributes,
     Head& head,
     std::vector<std::uint8_t>& chunks,
     const Stage& stage)
@@ -119,6 +120,9 @@ bool writeCompact(
 		BaseSyntax<RangeEncoder>(writer.coder(), bits - shift, head.has(kRestoration))
 		    .write(base, ignored, &levels.group);
 	}
+	writer.attributesBegin();
+	if (attributes)
+		attributes->base(writer.coder(), levels.table(0), levels.glue);
 	endLevel(LevelKind::Base, 0);
 	for (std::size_t i = 0; i < schedule.steps.size(); ++i) {
 		const ScheduleStep& step = schedule.steps[i];
@@ -142,6 +146,10 @@ bool writeCompact(
 				    syntax.codeChildren(parent, refinement, parents[split - 1], shift, cells);
 			    },
 			    writer.coder(), *models, child, bits, levels.glue);
+			writer.attributesBegin();
+			if (attributes)
+				attributes->split(
+				    writer.coder(), split, parent, child, refinement, parents[split - 1]);
 		}
 		else {
 			shift -= step.bits;
@@ -155,6 +163,7 @@ bool writeCompact(
 				    syntax.codeBits(shift, step.bits, cells, finer);
 			    },
 			    writer.coder(), *models, levels.table(split), bits, levels.glue);
+			writer.attributesBegin();
 		}
 		if (!running)
 			return false;

@@ -4,6 +4,7 @@
 /// precise.
 #pragma once
 
+#include "attributes/attribute_levels.h"
 #include "encode/level_writer.h"
 #include "encode/levels.h"
 #include "encode/schedule.h"
@@ -13,10 +14,12 @@ namespace wavemesh {
 /// Writes the levels as the schedule has it.
 ///
 /// @param head  mode, lattice and features are set; the level table is filled in
+/// @param attributes  writes those of the levels; or nullptr
 /// @return false if the user cancelled
 bool writeCompact(
     const Levels& levels,
     const Schedule& schedule,
+    AttributeWriter* attributes,
     Head& head,
     std::vector<std::uint8_t>& chunks,
     const Stage& stage);

@@ -11,7 +11,7 @@ constexpr std::size_t kChunkSize = 4000;
 
 void LevelWriter::endLevel(const LevelRow& row, bool last)
 {
-	levels_.push_back({row, connectivityEnd_, coder_.mark()});
+	levels_.push_back({row, connectivityEnd_, attributesBegin_, coder_.mark()});
 	connectivityEnd_ = coder_.mark();
 	if (last || coder_.mark().size >= kChunkSize)
 		endChunk();
@@ -23,12 +23,14 @@ void LevelWriter::endChunk()
 	writeChunk(kLevelChunk, payload, chunks_);
 	std::size_t begin = 0;
 	for (Level& level : levels_) {
-		const std::size_t middle    = RangeEncoder::prefix(payload, level.connectivityEnd);
-		const std::size_t end       = RangeEncoder::prefix(payload, level.end);
-		level.row.bytes             = std::uint32_t(end - begin);
-		level.row.connectivityBytes = std::uint32_t(middle - begin);
-		level.row.endsChunk         = &level == &levels_.back();
-		begin                       = end;
+		const std::size_t middle     = RangeEncoder::prefix(payload, level.connectivityEnd);
+		const std::size_t attributes = RangeEncoder::prefix(payload, level.attributesBegin);
+		const std::size_t end        = RangeEncoder::prefix(payload, level.end);
+		level.row.bytes              = std::uint32_t(end - begin);
+		level.row.connectivityBytes  = std::uint32_t(middle - begin);
+		level.row.attributeBytes     = std::uint32_t(end - attributes);
+		level.row.endsChunk          = &level == &levels_.back();
+		begin                        = end;
 		head_.rows.push_back(level.row);
 	}
 	levels_.clear();

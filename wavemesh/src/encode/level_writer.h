@@ -15,15 +15,17 @@ public:
 
 	RangeEncoder& coder() { return coder_; }
 	void connectivityEnds() { connectivityEnd_ = coder_.mark(); }
+	void attributesBegin() { attributesBegin_ = coder_.mark(); }
 
-	/// The level is written; its bytes and the end of its chunk are filled in here.
+	/// The level is written, attributes last; its bytes and the end of its chunk are filled in
+	/// here.
 	void endLevel(const LevelRow& row, bool last);
 
 private:
 	struct Level
 	{
 		LevelRow row;
-		RangeEncoder::Mark connectivityEnd, end;
+		RangeEncoder::Mark connectivityEnd, attributesBegin, end;
 	};
 
 	void endChunk();
@@ -32,7 +34,7 @@ private:
 	std::vector<std::uint8_t>& chunks_;
 	RangeEncoder coder_;
 	std::vector<Level> levels_; ///< of the chunk being written
-	RangeEncoder::Mark connectivityEnd_;
+	RangeEncoder::Mark connectivityEnd_, attributesBegin_;
 };
 
 } // namespace wavemesh

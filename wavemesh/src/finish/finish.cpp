@@ -72,12 +72,14 @@ void codeExact(
 	NumberFormat format;
 	if constexpr (!Coder::kReading)
 		format = formatOf(values, lattice.step);
-	ExactSyntax<Coder> syntax(coder, format, 3);
+	format.wide   = codeRaw(coder, 1, format.wide) != 0;
+	format.digits = int(codeRaw(coder, 4, std::uint32_t(format.digits + 1))) - 1;
+	ExactSyntax syntax(format, 3);
 	values.resize(points.size());
 	for (std::size_t v = 0; v < points.size() && !coder.exhausted(); ++v) {
 		const auto predicted = lattice.position(points[v]);
 		for (std::size_t k = 0; k < 3; ++k)
-			values[v][k] = syntax.code(predicted[k], lattice.step, k, values[v][k]);
+			values[v][k] = syntax.code(coder, predicted[k], lattice.step, k, values[v][k]);
 	}
 }
 
@@ -132,14 +134,8 @@ void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>
 		});
 	}
 	if (head.has(kAttributes)) {
-		std::vector<Index> originalVertex;
-		for (const Index v : from.source)
-			originalVertex.push_back(from.cut.vertex[v]);
-		head.attributeWidths = attributeWidths(from.original.attributes);
-		const auto payload   = writeAttributes(
-		      {from.original, from.finest, originalVertex, from.parents, from.glue, restored, source,
-		       orderOf(from.original.triangles, restored, source)},
-		      head.rows);
+		const auto payload             = from.attributes->rest(head.channels);
+		head.textures                  = from.original.textures;
 		head.featureBytes[kAttributes] = payload.size();
 		writeChunk(kFeatureChunk[kAttributes], payload, chunks);
 	}
@@ -149,21 +145,18 @@ Finish::Finish(
     const Head& head,
     const CornerTable& finest,
     const std::vector<LatticePoint>& positions,
-    const Glue& glue) :
+    const Glue& glue,
+    AttributeReader* attributes) :
         head_(head),
         finest_(finest), positions_(positions), numbers_(restoredNumbers(glue, finest.vertexCount)),
-        restored_(restore(finest, positions, numbers_, {}))
+        restored_(restore(finest, positions, numbers_, {})), attributes_(attributes)
 {
+	if (attributes_)
+		attributes_->restore(numbers_, restored_, {});
 }
 
-Status Finish::apply(
-    Feature feature, const std::uint8_t* payload, std::size_t size, AttributeReader* attributes)
+Status Finish::apply(Feature feature, const std::uint8_t* payload, std::size_t size)
 {
-	if (feature == kAttributes) {
-		attributes_ = attributes;
-		return attributes ? attributes->finish(restored_, finest_, numbers_)
-		                  : Status(StatusCode::Corrupt, "the attributes are not in their place");
-	}
 	ByteReader in(payload, size);
 	std::uint32_t digest = 0;
 	in.fixed(digest);
@@ -177,9 +170,10 @@ Status Finish::apply(
 		return order(coder, digest);
 	case kExact:
 		return exact(coder, digest);
-	default:
-		return {StatusCode::Corrupt, "a chunk behind the levels is of an unknown kind"};
+	case kAttributes:
+		return attributes_->readRest(coder, digest, restored_);
 	}
+	return {StatusCode::Corrupt, "a chunk behind the levels is of an unknown kind"};
 }
 
 Status Finish::restoration(RangeDecoder& coder, std::uint32_t digest)
@@ -192,6 +186,8 @@ Status Finish::restoration(RangeDecoder& coder, std::uint32_t digest)
 	if (!s.ok())
 		return s;
 	restored_ = restore(finest_, positions_, numbers_, r);
+	if (attributes_)
+		attributes_->restore(numbers_, restored_, r.turned);
 	return digestOf(restored_) == digest ? Status() : wrongDigest("the restored mesh");
 }
 
@@ -220,14 +216,12 @@ MeshData Finish::mesh() const
 	if (exact_.empty())
 		for (const LatticePoint& p : restored_.points)
 			out.positions.push_back(head_.lattice.position(p));
-	if (attributes_) {
-		out.attributes = attributes_->attributes();
-		out.textures   = attributes_->textures();
-	}
+	out.textures = head_.textures;
+	if (attributes_)
+		out.attributes = attributes_->restoredAttributes(order_);
 	if (!order_.empty()) {
-		out.attributes = inOrder(std::move(out.attributes), order_);
-		out.triangles  = inOrder(out.triangles, order_);
-		out.positions  = inOrder(out.positions, order_);
+		out.triangles = inOrder(out.triangles, order_);
+		out.positions = inOrder(out.positions, order_);
 	}
 	return out;
 }

@@ -5,9 +5,10 @@
 /// it leads to.
 #pragma once
 
+#include "attributes/attribute_levels.h"
+#include "attributes/attribute_reader.h"
 #include "container/container.h"
 #include "entropy/range_coder.h"
-#include "finish/attributes.h"
 #include "finish/restoration.h"
 
 namespace wavemesh {
@@ -21,7 +22,7 @@ struct FinishSource
 	const std::vector<LatticePoint>& positions; ///< #V_J, lattice units
 	const std::vector<Index>& source;           ///< #V_J: the cut's vertex behind each
 	const Glue& glue;
-	const std::vector<std::array<Index, 3>>& parents; ///< of the vertices not of the base mesh
+	AttributeWriter* attributes; ///< that wrote those of the levels; or nullptr
 };
 
 /// Features of the head that options and mesh ask for, before anything is coded.
@@ -35,21 +36,18 @@ void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>
 class Finish
 {
 public:
-	/// The finest level, whole.
+	/// The finest level, whole. All references must stay.
+	/// @param attributes  that were read along with the levels, or nullptr
 	Finish(
 	    const Head& head,
 	    const CornerTable& finest,
 	    const std::vector<LatticePoint>& positions,
-	    const Glue& glue);
+	    const Glue& glue,
+	    AttributeReader* attributes);
 
 	/// Applies the chunk of a feature; features come in their order.
-	/// @param attributes  that were read along with the levels; for kAttributes, and to live on
 	/// @return Corrupt, ChecksumMismatch (of the digest); then the mesh is not to be used
-	Status apply(
-	    Feature feature,
-	    const std::uint8_t* payload,
-	    std::size_t size,
-	    AttributeReader* attributes);
+	Status apply(Feature feature, const std::uint8_t* payload, std::size_t size);
 
 	/// The mesh with all that was applied.
 	MeshData mesh() const;
@@ -64,9 +62,9 @@ private:
 	const std::vector<LatticePoint>& positions_;
 	RestoredNumbers numbers_;
 	RestoredMesh restored_;
-	const AttributeReader* attributes_ = nullptr; ///< read to its end
-	ElementOrder order_;                          ///< or empty
-	std::vector<std::array<double, 3>> exact_;    ///< #V, or empty
+	AttributeReader* attributes_;
+	ElementOrder order_;                       ///< or empty
+	std::vector<std::array<double, 3>> exact_; ///< #V, or empty
 };
 
 } // namespace wavemesh

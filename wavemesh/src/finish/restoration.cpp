@@ -4,6 +4,7 @@
 #include "syntax/point_set_syntax.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wavemesh {
 
@@ -44,6 +45,40 @@ RestoredMesh restore(
 	for (const auto& [twice, once] : r.degenerate)
 		out.triangles.push_back({twice, twice, once});
 	return out;
+}
+
+std::vector<double> normalsOf(const RestoredMesh& mesh, AttributeOf of)
+{
+	std::vector<double> faces, vertices(3 * mesh.points.size(), 0);
+	for (const auto& t : mesh.triangles) {
+		double a[3], b[3]; // edges
+		for (std::size_t k = 0; k < 3; ++k) {
+			a[k] = double(mesh.points[t[1]][k]) - double(mesh.points[t[0]][k]);
+			b[k] = double(mesh.points[t[2]][k]) - double(mesh.points[t[0]][k]);
+		}
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+			faces.push_back(a[i] * b[j] - a[j] * b[i]);
+			for (const Index v : t)
+				vertices[3 * v + k] += faces.back();
+		}
+	}
+	std::vector<double> out = of == AttributeOf::Face ? std::move(faces) : std::move(vertices);
+	for (std::size_t i = 0; i < out.size(); i += 3) {
+		const double length =
+		    std::sqrt(out[i] * out[i] + out[i + 1] * out[i + 1] + out[i + 2] * out[i + 2]);
+		for (std::size_t k = i; k < i + 3; ++k)
+			out[k] = length > 0 ? out[k] / length : 0;
+	}
+	if (of != AttributeOf::Corner)
+		return out;
+	std::vector<double> corners;
+	corners.reserve(9 * mesh.triangles.size());
+	for (const auto& t : mesh.triangles)
+		for (const Index v : t)
+			for (std::size_t k = 0; k < 3; ++k)
+				corners.push_back(out[3 * v + k]);
+	return corners;
 }
 
 namespace {

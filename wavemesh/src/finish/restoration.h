@@ -12,6 +12,8 @@
 #include "mesh/manifold_cut.h"
 #include "mesh/quantization.h"
 
+#include <wavemesh/mesh_data.h>
+
 namespace wavemesh {
 
 /// What the finest level does not tell.
@@ -27,6 +29,13 @@ struct Restoration
 	std::vector<std::array<Index, 2>> degenerate; ///< restored vertices: a face (a, a, b)
 	std::vector<LatticePoint> isolated;
 };
+
+/// The corner that the restored mesh has in the place of c, and the other way round, if the face is
+/// turned.
+inline Index turnedCorner(Index c)
+{
+	return c % 3 == 0 ? c : c % 3 == 1 ? c + 1 : c - 1;
+}
 
 struct RestoredMesh
 {
@@ -49,6 +58,10 @@ RestoredMesh restore(
     const std::vector<LatticePoint>& positions,
     const RestoredNumbers& numbers,
     const Restoration& r);
+
+/// Normals of the vertices, faces or corners, from the lattice points: of a vertex and of its
+/// corners the sum of its faces', weighted by area. Of length 1, or 0. #rows by 3.
+std::vector<double> normalsOf(const RestoredMesh& mesh, AttributeOf of);
 
 /// Where the elements of a restored mesh come from: writing only.
 struct RestoredSource

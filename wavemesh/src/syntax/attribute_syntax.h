@@ -1,269 +1,473 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Attributes as bits, both ways: what they are; those of vertices level by level, each predicted
-/// from its parents, so that the beginning of the stream gives a coarse level; then, on the
-/// restored mesh, all others, predicted from the neighbours before them.
+/// Attributes as bits, both ways. With each level come the rows of its new vertices, and the rows
+/// of its faces and corners as far as they are not those of the level before; behind the levels,
+/// those of elements that are on no level.
 #pragma once
 
+#include "attributes/descent.h"
 #include "finish/restoration.h"
 #include "syntax/exact_syntax.h"
-
-#include <wavemesh/mesh_data.h>
+#include "syntax/lattice_syntax.h"
+#include "syntax/normal_syntax.h"
 
 namespace wavemesh {
 
-template <class Coder>
+/// Rows of each channel.
+using Tables = std::vector<std::vector<double>>;
+
 class AttributeSyntax
 {
 public:
-	static constexpr int kMaxComponents           = 16;
-	static constexpr std::uint32_t kMaxAttributes = 64;
-
-	/// Reading, `attributes` gets what is read.
-	/// @pre writing: values of vertices come in the decoder's order of vertices, with copies
-	AttributeSyntax(Coder& coder, std::vector<Attribute>& attributes) :
-	        coder_(coder), attributes_(attributes)
+	/// @param channels  must stay
+	explicit AttributeSyntax(const std::vector<Channel>& channels) :
+	        channels_(channels), tables_(channels.size()), flags_(channels.size()),
+	        bits_(channels.size(), 0)
 	{
+		for (const Channel& c : channels) {
+			lattice_.emplace_back(c.columns);
+			exact_.emplace_back();
+			normal_.push_back(
+			    c.octahedron > 0 ? std::make_unique<NormalSyntax>(c.octahedron) : nullptr);
+		}
 	}
 
-	/// @return false if what is read is no attribute
-	bool codeHeader(std::vector<std::string>& textures)
+	/// The rows of the base mesh, and those of the whole mesh.
+	/// @param next  writing: the tables of the level, with a row for each vertex, copies too
+	template <class Coder>
+	void codeBase(Coder& coder, const CornerTable& table, const Glue& glue, Tables next = {})
 	{
-		const std::uint32_t count = codeRaw(coder_, 8, std::uint32_t(attributes_.size()));
-		if (count > kMaxAttributes)
-			return false;
-		for (std::uint32_t i = 0; i < count && !coder_.exhausted(); ++i) {
-			if constexpr (Coder::kReading)
-				attributes_.emplace_back();
-			Attribute& a = attributes_[i];
-			a.of         = AttributeOf(codeRaw(coder_, 2, std::uint32_t(a.of)));
-			a.kind       = AttributeKind(codeRaw(coder_, 8, std::uint32_t(a.kind)));
-			a.type       = NumberType(codeRaw(coder_, 2, std::uint32_t(a.type)));
-			a.components = 1 + int(codeRaw(coder_, 4, std::uint32_t(a.components - 1)));
-			codeText(a.name, 8);
-			if (a.type > NumberType::Double)
-				return false;
-			NumberFormat format;
-			if constexpr (!Coder::kReading)
-				format = formatFor(a);
-			numbers_.emplace_back(coder_, format, std::size_t(a.components));
-			same_.emplace_back();
-		}
-		const std::uint32_t names = codeRaw(coder_, 16, std::uint32_t(textures.size()));
-		for (std::uint32_t i = 0; i < names && !coder_.exhausted(); ++i) {
-			if constexpr (Coder::kReading)
-				textures.emplace_back();
-			codeText(textures[i], 16);
-		}
-		return true;
-	}
-
-	/// The next vertices of the decoder's order.
-	/// @param parents  of each, see Parents in wavelet/lifting.h; empty: they are of the base mesh
-	void codeVertices(
-	    Index begin, Index end, const std::vector<std::array<Index, 3>>& parents, const Glue& glue)
-	{
-		for (std::size_t i = 0; i < attributes_.size(); ++i)
-			if (attributes_[i].of == AttributeOf::Vertex)
-				for (Index v = begin; v < end && !coder_.exhausted(); ++v) {
-					if (glue.isCopy(v))
-						copyRow(i, glue.first[v]);
-					else if (parents.empty())
-						codeRow(i, v, v < 1 ? kNone : v - 1, v < 2 ? kNone : v - 2);
-					else
-						codeRow(i, v, parents[v - begin][0], parents[v - begin][1]);
+		begin<Coder>(table, std::move(next));
+		const Fans fans(table);
+		for (std::size_t i = 0; i < channels_.size(); ++i)
+			inLevel(coder, i, [&] {
+				switch (channels_[i].of) {
+				case AttributeOf::Vertex:
+					for (Index v = 0; v < table.vertexCount; ++v)
+						if (glue.isCopy(v))
+							copyRow(i, v, rowAt(i, glue.first[v]));
+						else
+							codeRow(coder, i, v, rowsBefore(i, v));
+					break;
+				case AttributeOf::Face:
+					for (Index f = 0; f < table.faceCount(); ++f)
+						codeRow(coder, i, f, facesBefore(i, table, f));
+					break;
+				case AttributeOf::Corner:
+					codeBaseCorners(coder, i, table, fans);
+					break;
+				case AttributeOf::Mesh:
+					codeRow(coder, i, 0, {});
+					break;
 				}
+			});
 	}
 
-	/// What else there is. @pre the vertices' values are in the restored mesh's numbering
-	/// @param known  vertices coded so far
-	void codeRest(const RestoredMesh& mesh, const CornerTable& finest, Index known)
+	/// What the rows of the next level differ from those of this one.
+	template <class Coder>
+	void codeSplit(
+	    Coder& coder,
+	    const CornerTable& parent,
+	    const CornerTable& child,
+	    const Refinement& refinement,
+	    const Parents& parents,
+	    Tables next = {})
 	{
-		for (std::size_t i = 0; i < attributes_.size(); ++i)
-			switch (attributes_[i].of) {
-			case AttributeOf::Vertex:
-				for (Index v = known; v < mesh.points.size() && !coder_.exhausted(); ++v)
-					codeRow(i, v, v < 1 ? kNone : v - 1, v < 2 ? kNone : v - 2);
-				break;
-			case AttributeOf::Face:
-				codeFaces(i, Index(mesh.triangles.size()), finest);
-				break;
-			case AttributeOf::Corner:
-				codeCorners(i, mesh.triangles, finest);
-				break;
-			case AttributeOf::Mesh:
-				codeRow(i, 0, kNone, kNone);
-				break;
-			}
+		const Fans fans(child);
+		const Descent descent = descentOf(parent, child, refinement, parents, fans);
+		begin<Coder>(child, std::move(next));
+		for (std::size_t i = 0; i < channels_.size(); ++i)
+			inLevel(coder, i, [&] {
+				switch (channels_[i].of) {
+				case AttributeOf::Vertex:
+					for (Index v = parent.vertexCount; v < child.vertexCount; ++v) {
+						const Index at = v - parent.vertexCount;
+						codeRow(coder, i, v, near(i, parent, parents[at], descent.edge[at]));
+					}
+					break;
+				case AttributeOf::Face:
+					codeFaces(coder, i, child, descent);
+					break;
+				case AttributeOf::Corner:
+					for (Index v = 0; v < child.vertexCount; ++v)
+						if (fans.begin[v] < fans.begin[v + 1])
+							codeFan(coder, i, v < parent.vertexCount, parent, descent, fans, v);
+					break;
+				case AttributeOf::Mesh:
+					break;
+				}
+			});
 	}
+
+	/// The rows from `known` on of vertices, faces and corners that are on no level; all normals
+	/// and edges of polygons.
+	/// @param mesh  the restored one
+	/// @param next  tables of the restored mesh; reading: right as far as known
+	template <class Coder>
+	void
+	codeRest(Coder& coder, const std::array<Index, 3>& known, const RestoredMesh& mesh, Tables next)
+	{
+		tables_ = std::move(next);
+		for (std::size_t i = 0; i < channels_.size(); ++i)
+			if (channels_[i].of != AttributeOf::Mesh)
+				counted(coder, i, [&] {
+					const auto count = Index(tables_[i].size() / width(i));
+					if (channels_[i].isNormal()) {
+						const std::vector<double> expected =
+						    toRows(channels_[i], normalsOf(mesh, channels_[i].of));
+						for (Index row = 0; row < count; ++row)
+							codeRow(
+							    coder, i, row,
+							    {expected.data() + row * width(i), nullptr, nullptr, nullptr});
+						return;
+					}
+					const auto of = std::size_t(channels_[i].of);
+					for (Index row = channels_[i].inLevels() ? known[of] : 0; row < count; ++row)
+						codeRow(coder, i, row, rowsBefore(i, row));
+				});
+	}
+
+	/// Of the level reached.
+	const Tables& tables() const { return tables_; }
+	/// What channel i took so far. Writing only.
+	std::uint64_t bits(std::size_t i) const { return bits_[i]; }
 
 private:
-	static NumberFormat formatFor(const Attribute& a)
+	struct Flags
 	{
-		if (a.type == NumberType::Integer)
-			return {true, 0};
-		// What a prediction is off by, about: a hundredth of the range.
-		double low = 0, high = 0;
-		std::vector<std::array<double, 3>> rows;
-		rows.reserve(a.values.size() / 3 + 1);
-		for (std::size_t i = 0; i < a.values.size(); ++i) {
-			if (i % 3 == 0)
-				rows.push_back({a.values[i], a.values[i], a.values[i]});
-			rows.back()[i % 3] = a.values[i];
-			if (std::isfinite(a.values[i])) {
-				low  = std::min(low, a.values[i]);
-				high = std::max(high, a.values[i]);
+		std::array<AdaptiveBit, 4> kept;   ///< all corners of an old vertex, all faces of a face
+		std::array<AdaptiveBit, 4> single; ///< all corners of a new vertex are alike
+		std::array<AdaptiveBit, 4> same, other;
+		std::size_t last = 0; ///< answer to `kept` or `single` before, 0 or 1
+	};
+
+	std::size_t width(std::size_t i) const { return channels_[i].width(); }
+	const double* rowAt(std::size_t i, Index row) const
+	{
+		return tables_[i].data() + row * width(i);
+	}
+	const double* beforeAt(std::size_t i, Index row) const
+	{
+		return row == kNone ? nullptr : before_[i].data() + row * width(i);
+	}
+	bool same(std::size_t i, const double* a, const double* b) const
+	{
+		return a == b || (a && b && std::memcmp(a, b, width(i) * sizeof *a) == 0);
+	}
+
+	/// Goes on to the next level's tables.
+	template <class Coder>
+	void begin(const CornerTable& table, Tables next)
+	{
+		before_ = std::move(tables_);
+		tables_ = std::move(next);
+		if constexpr (Coder::kReading) {
+			const std::size_t count[4] = {
+			    table.vertexCount, table.faceCount(), table.cornerCount(), 1};
+			tables_.assign(channels_.size(), {});
+			for (std::size_t i = 0; i < channels_.size(); ++i) {
+				const AttributeOf of = channels_[i].of;
+				if (of == AttributeOf::Vertex || of == AttributeOf::Mesh)
+					tables_[i] = std::move(before_[i]);
+				if (channels_[i].inLevels())
+					tables_[i].resize(width(i) * count[std::size_t(of)]);
 			}
 		}
-		const double spread = (high - low) / 100;
-		return formatOf(rows, std::isfinite(spread) ? spread : 1);
 	}
 
-	void codeText(std::string& text, int lengthBits)
+	template <class Coder, class Code>
+	void inLevel(Coder& coder, std::size_t i, Code code)
 	{
-		const std::uint32_t length = codeRaw(coder_, lengthBits, std::uint32_t(text.size()));
-		for (std::uint32_t i = 0; i < length && !coder_.exhausted(); ++i) {
-			if constexpr (Coder::kReading)
-				text.push_back(0);
-			text[i] = char(codeRaw(coder_, 8, std::uint8_t(text[i])));
-		}
+		if (channels_[i].inLevels())
+			counted(coder, i, code);
 	}
 
-	std::size_t width(std::size_t i) const { return std::size_t(attributes_[i].components); }
-	double at(std::size_t i, Index row, std::size_t k) const
-	{
-		const double x = row == kNone ? 0 : attributes_[i].values[row * width(i) + k];
-		return std::isfinite(x) ? x : 0;
-	}
-
-	/// A row next to the mean of two that are known, or to one, or to zeros.
-	void codeRow(std::size_t i, Index row, Index a, Index b)
-	{
-		std::array<double, kMaxComponents> predicted {}, spread {};
-		for (std::size_t k = 0; k < width(i); ++k) {
-			const double x = at(i, a, k), y = b == kNone ? x : at(i, b, k);
-			predicted[k] = 0.5 * x + 0.5 * y;
-			spread[k]    = std::abs(0.5 * x - 0.5 * y);
-		}
-		codeValues(i, row, predicted, spread);
-	}
-
-	void codeValues(
-	    std::size_t i,
-	    Index row,
-	    std::array<double, kMaxComponents>& predicted,
-	    std::array<double, kMaxComponents>& spread)
-	{
-		auto& values = attributes_[i].values;
-		for (std::size_t k = 0; k < width(i) && !coder_.exhausted(); ++k) {
-			if constexpr (Coder::kReading)
-				values.push_back(0);
-			double& x = values[row * width(i) + k];
-			x         = numbers_[i].code(predicted[k], spread[k], k, x);
-			// Where one component is off the next one is.
-			const double off = std::abs(x - predicted[k]);
-			if (attributes_[i].kind == AttributeKind::Colour && k < 2 && k + 1 < width(i) &&
-			    std::isfinite(off))
-				predicted[k + 1] += x - predicted[k]; // brightness changes most
-			if (k + 1 < width(i) && std::isfinite(off))
-				spread[k + 1] = std::max(spread[k + 1], 0.5 * off);
-		}
-	}
-
-	void copyRow(std::size_t i, Index from)
+	template <class Coder, class Code>
+	void counted(Coder& coder, std::size_t i, Code code)
 	{
 		if constexpr (Coder::kReading)
-			for (std::size_t k = 0; k < width(i); ++k) {
-				const double x = attributes_[i].values[from * width(i) + k];
-				attributes_[i].values.push_back(x);
-			}
-	}
-
-	/// A face next to its first two neighbours before it, else to the faces before it.
-	void codeFaces(std::size_t i, Index count, const CornerTable& finest)
-	{
-		for (Index f = 0; f < count && !coder_.exhausted(); ++f) {
-			Index near[3] = {kNone, kNone, kNone};
-			int n         = 0;
-			for (Index c = 3 * f; c < 3 * f + 3; ++c)
-				if (const Index g = faceBefore(finest, c); g != kNone)
-					near[n++] = g;
-			if (n == 0 && f > 0)
-				near[0] = f - 1;
-			codeRow(i, f, near[0], near[1]);
+			code();
+		else {
+			const auto position = [&coder] {
+				const RangeEncoder::Mark at = coder.mark();
+				return 8 * at.size + 32 - std::size_t(bitLength(at.high - at.low));
+			};
+			const std::uint64_t from = position();
+			code();
+			bits_[i] += position() - from;
 		}
 	}
 
-	/// Face across, if it comes before.
-	static Index faceBefore(const CornerTable& finest, Index corner)
-	{
-		const Index d = corner < finest.cornerCount() ? finest.opposite[corner] : kNone;
-		return d != kNone && d / 3 < corner / 3 ? d / 3 : kNone;
-	}
+	// ---- rows ---------------------------------------------------------------------------------
 
-	/// Rows of a corner's vertex in up to two faces next to its own that come before.
-	static std::array<Index, 2>
-	rowsBefore(const Triangles& triangles, const CornerTable& finest, Index f, Index vertex)
+	void copyRow(std::size_t i, Index row, const double* from)
 	{
-		std::array<Index, 2> rows {kNone, kNone};
-		std::size_t n = 0;
-		for (Index c = 3 * f; c < 3 * f + 3; ++c)
-			if (const Index g = faceBefore(finest, c); g != kNone && n < 2)
-				for (Index k = 0; k < 3; ++k)
-					if (triangles[g][k] == vertex) {
-						rows[n++] = 3 * g + k;
-						break;
-					}
-		return rows;
-	}
-
-	bool sameRow(std::size_t i, Index a, Index b) const
-	{
+		double* to = tables_[i].data() + row * width(i);
 		for (std::size_t k = 0; k < width(i); ++k)
-			if (ordinalOf(attributes_[i].values[a * width(i) + k]) !=
-			    ordinalOf(attributes_[i].values[b * width(i) + k]))
-				return false;
-		return true;
+			to[k] = from ? from[k] : 0;
 	}
 
-	/// Each corner has what the same vertex has in a face next to it, unless there is a seam.
-	void codeCorners(std::size_t i, const Triangles& triangles, const CornerTable& finest)
+	template <class Coder>
+	void codeRow(Coder& coder, std::size_t i, Index row, const NearRows& near)
 	{
-		std::size_t last = 0;
-		for (Index f = 0; f < triangles.size(); ++f)
-			for (Index k = 0; k < 3 && !coder_.exhausted(); ++k) {
-				const Index row = 3 * f + k, v = triangles[f][k];
-				auto near = rowsBefore(triangles, finest, f, v);
-				if (near[1] != kNone && sameRow(i, near[0], near[1]))
-					near[1] = kNone;
-				std::size_t context = 3 * last;
-				bool known          = false;
-				for (const Index from : near) {
-					++context;
-					if (from == kNone || known)
-						continue;
-					bool same = false;
-					if constexpr (!Coder::kReading)
-						same = sameRow(i, row, from);
-					known = codeBit(coder_, same_[i][context], same);
-					if (known)
-						copyRow(i, from);
-				}
-				last = known ? 1 : 0;
-				if (!known)
-					codeRow(
-					    i, row,
-					    near[0] != kNone ? near[0]
-					    : row > 0        ? row - 1
-					                     : kNone,
-					    k > 0 ? row - 1 : kNone);
-			}
+		double* to = tables_[i].data() + row * width(i);
+		if (normal_[i])
+			normal_[i]->code(coder, to, near.a);
+		else if (channels_[i].onLattice())
+			lattice_[i].code(coder, to, near);
+		else
+			codeExact(coder, i, to, near);
+		if (coder.exhausted())
+			copyRow(i, row, near.a);
 	}
 
-	Coder& coder_;
-	std::vector<Attribute>& attributes_;
-	std::vector<ExactSyntax<Coder>> numbers_; ///< by attribute
-	std::vector<std::array<AdaptiveBit, 16>> same_;
+	template <class Coder>
+	void codeExact(Coder& coder, std::size_t i, double* row, const NearRows& near)
+	{
+		if (!exact_[i])
+			exact_[i] = std::make_unique<ExactSyntax>(channels_[i].exact, width(i));
+		double onward = 0, off = 0; // what the column before tells of this one
+		for (std::size_t k = 0; k < width(i) && !coder.exhausted(); ++k) {
+			const auto finite = [&](const double* from) {
+				return from && std::isfinite(from[k]) ? from[k] : 0;
+			};
+			const double x = finite(near.a), y = near.b ? finite(near.b) : x;
+			const double predicted = 0.5 * x + 0.5 * y + onward;
+			const double spread    = std::max(std::abs(0.5 * x - 0.5 * y), 0.5 * off);
+			row[k]                 = exact_[i]->code(coder, predicted, spread, k, row[k]);
+			off                    = std::abs(row[k] - predicted);
+			onward = channels_[i].kind == AttributeKind::Colour && k < 2 && std::isfinite(off)
+			             ? row[k] - predicted // brightness changes most
+			             : 0;
+			off    = std::isfinite(off) ? off : 0;
+		}
+	}
+
+	NearRows rowsBefore(std::size_t i, Index row) const
+	{
+		return {
+		    row > 0 ? rowAt(i, row - 1) : nullptr, row > 1 ? rowAt(i, row - 2) : nullptr, nullptr,
+		    nullptr};
+	}
+
+	/// Those of up to two neighbours of face f that come before it, else of the face before.
+	NearRows facesBefore(std::size_t i, const CornerTable& table, Index f) const
+	{
+		NearRows near;
+		for (Index c = 3 * f; c < 3 * f + 3; ++c) {
+			const Index d = table.opposite[c];
+			if (d == kNone || d / 3 >= f)
+				continue;
+			if (near.a)
+				near.b = rowAt(i, d / 3);
+			else
+				near.a = rowAt(i, d / 3);
+		}
+		if (!near.a && f > 0)
+			near.a = rowAt(i, f - 1);
+		return near;
+	}
+
+	/// Of a new vertex: its parents, and those across their edge.
+	NearRows
+	near(std::size_t i, const CornerTable& parent, const std::array<Index, 3>& parents, Index edge)
+	    const
+	{
+		NearRows out {rowAt(i, parents[0]), rowAt(i, parents[1]), nullptr, nullptr};
+		if (edge != kNone && parent.opposite[edge] != kNone) {
+			out.left  = rowAt(i, parent.vertex[edge]);
+			out.right = rowAt(i, parent.vertex[parent.opposite[edge]]);
+		}
+		return out;
+	}
+
+	/// The same of a new vertex' corner; across the edge only where there is no seam.
+	NearRows near(std::size_t i, const CornerTable& parent, const std::array<Index, 2>& from) const
+	{
+		NearRows out {beforeAt(i, from[0]), beforeAt(i, from[1]), nullptr, nullptr};
+		if (from[0] == kNone || from[1] == kNone)
+			return out;
+		const Index c = nextCorner(from[0]) == from[1] ? nextCorner(from[1]) : nextCorner(from[0]);
+		const Index d = parent.opposite[c];
+		if (d != kNone && same(i, beforeAt(i, nextCorner(c)), beforeAt(i, prevCorner(d))) &&
+		    same(i, beforeAt(i, prevCorner(c)), beforeAt(i, nextCorner(d)))) {
+			out.left  = beforeAt(i, c);
+			out.right = beforeAt(i, d);
+		}
+		return out;
+	}
+
+	// ---- faces --------------------------------------------------------------------------------
+
+	/// The faces that a face became are like it, all or one by one.
+	template <class Coder>
+	void codeFaces(Coder& coder, std::size_t i, const CornerTable& child, const Descent& descent)
+	{
+		Flags& flags      = flags_[i];
+		const Index count = child.faceCount();
+		for (Index f = 0, end = 0; f < count; f = end) {
+			const double* from = beforeAt(i, descent.face[f]);
+			bool kept          = true;
+			for (end = f; end < count && descent.face[end] == descent.face[f]; ++end)
+				kept = kept && same(i, rowAt(i, end), from);
+			flags.last = kept =
+			    codeBit(coder, flags.kept[flags.last + (end - f > 1 ? 2 : 0)], kept);
+			for (Index g = f; g < end; ++g)
+				if (kept || codeBit(coder, flags.same[0], same(i, rowAt(i, g), from)))
+					copyRow(i, g, from);
+				else {
+					NearRows rows = facesBefore(i, child, g);
+					rows.b        = rows.a;
+					rows.a        = from;
+					codeRow(coder, i, g, rows);
+				}
+		}
+	}
+
+	// ---- corners ------------------------------------------------------------------------------
+
+	/// The corners of one vertex of the base mesh: each next to those of its face that come before.
+	template <class Coder>
+	void codeBaseCorners(Coder& coder, std::size_t i, const CornerTable& table, const Fans& fans)
+	{
+		Index last = kNone; // corner of the vertex before
+		for (Index v = 0; v < table.vertexCount; ++v) {
+			const auto expected = [&](Index c) {
+				NearRows rows;
+				for (const Index d : {nextCorner(c), prevCorner(c)})
+					if (table.vertex[d] < v)
+						(rows.a ? rows.b : rows.a) = rowAt(i, d);
+				if (!rows.a && last != kNone)
+					rows.a = rowAt(i, last);
+				return rows;
+			};
+			codeNew(coder, i, fans, v, expected);
+			if (fans.begin[v] < fans.begin[v + 1])
+				last = fans.corner[fans.begin[v]];
+		}
+	}
+
+	template <class Coder>
+	void codeFan(
+	    Coder& coder,
+	    std::size_t i,
+	    bool isOld,
+	    const CornerTable& parent,
+	    const Descent& descent,
+	    const Fans& fans,
+	    Index v)
+	{
+		const auto expected = [&](Index c) { return near(i, parent, descent.corner[c]); };
+		if (isOld)
+			codeOld(coder, i, fans, v, expected);
+		else
+			codeNew(coder, i, fans, v, expected);
+	}
+
+	/// Rows of the fan's corners before the k-th that differ from it and from each other, nearest
+	/// first; up to 4.
+	struct Others
+	{
+		std::array<const double*, 4> row;
+		std::size_t count = 0;
+	};
+	Others
+	othersBefore(std::size_t i, const Fans& fans, Index begin, Index at, const double* not1) const
+	{
+		Others out;
+		for (Index j = at; j-- > begin && out.count < out.row.size();) {
+			const double* row = rowAt(i, fans.corner[j]);
+			bool isNew        = !not1 || !same(i, row, not1);
+			for (std::size_t n = 0; n < out.count; ++n)
+				isNew = isNew && !same(i, row, out.row[n]);
+			if (isNew)
+				out.row[out.count++] = row;
+		}
+		return out;
+	}
+
+	/// One of the rows before it, or a row of its own.
+	template <class Coder>
+	void codeOther(Coder& coder, std::size_t i, Index c, const Others& others, const NearRows& near)
+	{
+		for (std::size_t n = 0; n < others.count; ++n)
+			if (codeBit(coder, flags_[i].other[n], same(i, rowAt(i, c), others.row[n]))) {
+				copyRow(i, c, others.row[n]);
+				return;
+			}
+		codeRow(coder, i, c, near);
+	}
+
+	/// Corners of a vertex of the level before: most are as they were.
+	template <class Coder, class Expected>
+	void codeOld(Coder& coder, std::size_t i, const Fans& fans, Index v, Expected expected)
+	{
+		Flags& flags      = flags_[i];
+		const Index begin = fans.begin[v], end = fans.begin[v + 1];
+		bool kept = true, alike = true;
+		const double* first = expected(fans.corner[begin]).a;
+		for (Index j = begin; j < end; ++j) {
+			const double* from = expected(fans.corner[j]).a;
+			kept               = kept && same(i, rowAt(i, fans.corner[j]), from);
+			alike              = alike && same(i, first, from);
+		}
+		flags.last = kept = codeBit(coder, flags.kept[flags.last + (alike ? 0 : 2)], kept);
+		for (Index j = begin; j < end; ++j) {
+			const Index c       = fans.corner[j];
+			const NearRows rows = expected(c);
+			if (kept || codeBit(coder, flags.same[1], same(i, rowAt(i, c), rows.a)))
+				copyRow(i, c, rows.a);
+			else
+				codeOther(coder, i, c, othersBefore(i, fans, begin, j, rows.a), rows);
+		}
+	}
+
+	/// Corners of a new vertex: each like the one before it in the fan, unless there is a seam.
+	template <class Coder, class Expected>
+	void codeNew(Coder& coder, std::size_t i, const Fans& fans, Index v, Expected expected)
+	{
+		Flags& flags      = flags_[i];
+		const Index begin = fans.begin[v], end = fans.begin[v + 1];
+		if (begin == end)
+			return;
+		bool single = true, alike = true;
+		const NearRows first = expected(fans.corner[begin]);
+		for (Index j = begin + 1; j < end; ++j) {
+			const NearRows rows = expected(fans.corner[j]);
+			single = single && same(i, rowAt(i, fans.corner[j]), rowAt(i, fans.corner[begin]));
+			alike  = alike && isAsExpected(i, first, rows);
+		}
+		codeRow(coder, i, fans.corner[begin], first);
+		if (end - begin > 1)
+			flags.last = single =
+			    codeBit(coder, flags.single[flags.last + (alike ? 0 : 2)], single);
+		NearRows last = first;
+		for (Index j = begin + 1; j < end; ++j) {
+			const Index c             = fans.corner[j];
+			const double* row         = rowAt(i, fans.corner[j - 1]);
+			const NearRows rows       = expected(c);
+			const std::size_t context = isAsExpected(i, last, rows) ? 2 : 3;
+			if (single || codeBit(coder, flags.same[context], same(i, rowAt(i, c), row)))
+				copyRow(i, c, row);
+			else
+				codeOther(coder, i, c, othersBefore(i, fans, begin, j, row), rows);
+			last = rows;
+		}
+	}
+
+	/// Do two corners of a vertex expect the same, from whichever side?
+	bool isAsExpected(std::size_t i, const NearRows& x, const NearRows& y) const
+	{
+		return (same(i, x.a, y.a) && same(i, x.b, y.b)) || (same(i, x.a, y.b) && same(i, x.b, y.a));
+	}
+
+	const std::vector<Channel>& channels_;
+	Tables tables_, before_;
+	std::vector<LatticeSyntax> lattice_;
+	std::vector<std::unique_ptr<ExactSyntax>> exact_;
+	std::vector<std::unique_ptr<NormalSyntax>> normal_;
+	std::vector<Flags> flags_;
+	std::vector<std::uint64_t> bits_;
 };
 
 } // namespace wavemesh

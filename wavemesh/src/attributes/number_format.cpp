@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "syntax/exact_syntax.h"
+#include "attributes/number_format.h"
+
+#include "mesh/integer_math.h"
 
 namespace wavemesh {
 

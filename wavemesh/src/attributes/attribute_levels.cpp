@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "attributes/attribute_levels.h"
+
+#include "container/byte_io.h"
+
+#include <numeric>
+
+namespace wavemesh {
+namespace {
+
+/// For each corner of the restored mesh the original's.
+std::vector<Index> cornersOf(const RestoredSource& source, const ElementOrder& order)
+{
+	std::vector<Index> corners(3 * source.face.size());
+	for (Index f = 0; f < source.face.size(); ++f)
+		for (Index k = 0; k < 3; ++k)
+			corners[3 * f + (order.first[source.face[f]] + k) % 3] = 3 * source.face[f] + k;
+	return corners;
+}
+
+} // namespace
+
+AttributeLevels::AttributeLevels(
+    const MeshData& original, const QuantisedMesh& mesh, const Levels& levels)
+{
+	for (const Attribute& a : original.attributes) {
+		channels_.push_back(makeChannel(a));
+		rows_.push_back(toRows(channels_.back(), a.values));
+	}
+	const CornerTable& finest     = levels.replay.finest;
+	const RestoredNumbers numbers = restoredNumbers(levels.glue, finest.vertexCount);
+	knownVertices_                = numbers.count;
+	RestoredSource source;
+	const Restoration r = whatToRestore(
+	    mesh.cut, original, mesh.lattice, finest, levels.replay.source, numbers, source);
+	restored_       = restore(finest, levels.positions, numbers, r);
+	restoredVertex_ = source.vertex;
+	restoredFace_   = source.face;
+	restoredCorner_ = cornersOf(source, orderOf(original.triangles, restored_, source));
+
+	for (const Index v : levels.replay.source)
+		vertex_.push_back(mesh.cut.vertex[v]);
+	face_.assign(source.face.begin(), source.face.begin() + finest.faceCount());
+	for (Index c = 0; c < finest.cornerCount(); ++c)
+		corner_.push_back(restoredCorner_[r.turned[c / 3] ? turnedCorner(c) : c]);
+	coarsen(levels);
+}
+
+bool AttributeLevels::sameRow(AttributeOf of, Index a, Index b) const
+{
+	for (std::size_t i = 0; i < channels_.size(); ++i) {
+		const std::size_t width = channels_[i].width();
+		if (channels_[i].of == of && std::memcmp(
+		                                 rows_[i].data() + a * width, rows_[i].data() + b * width,
+		                                 width * sizeof(double)) != 0)
+			return false;
+	}
+	return true;
+}
+
+/// Of the faces that came from one, from `first` on: the one that most others are like.
+Index AttributeLevels::usual(const Level& fine, const Descent& descent, Index first) const
+{
+	Index best = first, most = 0;
+	for (Index g = first; g < descent.face.size() && descent.face[g] == descent.face[first]; ++g) {
+		Index alike = 0;
+		for (Index h = first; h < descent.face.size() && descent.face[h] == descent.face[first];
+		     ++h)
+			alike += sameRow(AttributeOf::Face, face_[fine.face[g]], face_[fine.face[h]]);
+		if (alike > most) {
+			most = alike;
+			best = g;
+		}
+	}
+	return best;
+}
+
+/// The finest level's charts, and the corners at each vertex.
+struct AttributeLevels::Seams
+{
+	Fans fans;
+	std::vector<Index> chart; ///< #F_J: the same number for all faces of a piece
+
+	explicit Seams(const CornerTable& finest) : fans(finest), chart(finest.faceCount())
+	{
+		std::iota(chart.begin(), chart.end(), Index(0));
+	}
+	Index root(Index f)
+	{
+		while (chart[f] != f)
+			f = chart[f] = chart[chart[f]];
+		return f;
+	}
+	/// The first corner at v with a row of this chart, or kNone.
+	Index find(Index v, Index wanted) const
+	{
+		for (Index j = fans.begin[v]; j < fans.begin[v + 1]; ++j)
+			if (chart[fans.corner[j] / 3] == wanted)
+				return fans.corner[j];
+		return kNone;
+	}
+	/// Of the charts given, the first that all corners of a face have; else the first.
+	Index shared(const CornerTable& table, Index face, const std::vector<Index>& charts) const
+	{
+		for (const Index wanted : charts) {
+			bool all = true;
+			for (Index c = 3 * face; c < 3 * face + 3; ++c)
+				all = all && find(table.vertex[c], wanted) != kNone;
+			if (all)
+				return wanted;
+		}
+		return charts[0];
+	}
+};
+
+/// Each coarse face has the row of one of the faces it became. Its corners have rows of one chart,
+/// if one of those around has some at all three of its vertices: no face is drawn across a seam
+/// without need.
+void AttributeLevels::coarsen(const Levels& levels)
+{
+	const CornerTable& finest = levels.replay.finest;
+	Seams seams(finest);
+	for (Index c = 0; c < finest.cornerCount(); ++c) {
+		const Index d = finest.opposite[c];
+		if (d != kNone && c < d &&
+		    sameRow(AttributeOf::Corner, corner_[nextCorner(c)], corner_[prevCorner(d)]) &&
+		    sameRow(AttributeOf::Corner, corner_[prevCorner(c)], corner_[nextCorner(d)]))
+			seams.chart[seams.root(c / 3)] = seams.root(d / 3);
+	}
+	for (Index f = 0; f < finest.faceCount(); ++f)
+		seams.chart[f] = seams.root(f);
+
+	levels_.resize(levels.splits() + 1);
+	Level& last   = levels_.back();
+	last.vertices = finest.vertexCount;
+	last.chart    = seams.chart;
+	last.face.resize(finest.faceCount());
+	last.corner.resize(finest.cornerCount());
+	std::iota(last.face.begin(), last.face.end(), Index(0));
+	std::iota(last.corner.begin(), last.corner.end(), Index(0));
+	for (std::size_t i = levels.splits(); i-- > 0;) {
+		const CornerTable &parent = levels.table(i), &child = levels.table(i + 1);
+		const Refinement& r   = levels.replay.levels[i].refinement;
+		const Descent descent = descentOf(parent, child, r, parentsOf(parent, r), Fans(child));
+		const Level& fine     = levels_[i + 1];
+		Level& level          = levels_[i];
+		level.vertices        = parent.vertexCount;
+		for (Index g = 0; g < child.faceCount(); ++g)
+			if (g == 0 || descent.face[g] != descent.face[g - 1])
+				level.face.push_back(fine.face[usual(fine, descent, g)]);
+		takeCorners(parent, child, descent, seams, fine, level);
+	}
+}
+
+void AttributeLevels::takeCorners(
+    const CornerTable& parent,
+    const CornerTable& child,
+    const Descent& descent,
+    const Seams& seams,
+    const Level& fine,
+    Level& level) const
+{
+	constexpr Index kMost = 8; // charts that are tried, so that hubs cost nothing
+	Index g               = 0;
+	for (Index f = 0; f < parent.faceCount(); ++f) {
+		std::vector<Index> charts;
+		for (; g < child.faceCount() && descent.face[g] == f; ++g)
+			charts.push_back(fine.chart[g]);
+		const Index v = parent.vertex[3 * f];
+		for (Index j = seams.fans.begin[v]; j < seams.fans.begin[v + 1] && charts.size() < kMost;
+		     ++j)
+			charts.push_back(seams.chart[seams.fans.corner[j] / 3]);
+		level.chart.push_back(seams.shared(parent, f, charts));
+	}
+	level.corner.assign(parent.cornerCount(), kNone);
+	std::vector<Index> anyChart(parent.cornerCount(), kNone);
+	for (Index c = 0; c < child.cornerCount(); ++c) {
+		const Index p = descent.corner[c][0];
+		if (p == kNone || child.vertex[c] >= parent.vertexCount)
+			continue;
+		if (anyChart[p] == kNone)
+			anyChart[p] = fine.corner[c];
+		if (level.corner[p] == kNone && seams.chart[fine.corner[c] / 3] == level.chart[p / 3])
+			level.corner[p] = fine.corner[c];
+	}
+	for (Index p = 0; p < parent.cornerCount(); ++p) {
+		const Index v = parent.vertex[p];
+		if (level.corner[p] == kNone)
+			level.corner[p] = seams.find(v, level.chart[p / 3]);
+		if (level.corner[p] == kNone)
+			level.corner[p] =
+			    anyChart[p] != kNone ? anyChart[p] : seams.fans.corner[seams.fans.begin[v]];
+	}
+}
+
+Tables AttributeLevels::picked(
+    const std::vector<Index>& vertex,
+    const std::vector<Index>& face,
+    const std::vector<Index>& corner) const
+{
+	Tables out;
+	for (std::size_t i = 0; i < channels_.size(); ++i) {
+		const std::size_t width = channels_[i].width();
+		if (channels_[i].isFauxEdges()) {
+			out.push_back(turnedFauxEdges(rows_[i], face, corner));
+			continue;
+		}
+		switch (channels_[i].of) {
+		case AttributeOf::Vertex:
+			out.push_back(pickedRows(rows_[i], vertex, width));
+			break;
+		case AttributeOf::Face:
+			out.push_back(pickedRows(rows_[i], face, width));
+			break;
+		case AttributeOf::Corner:
+			out.push_back(pickedRows(rows_[i], corner, width));
+			break;
+		case AttributeOf::Mesh:
+			out.push_back(rows_[i]);
+			break;
+		}
+	}
+	return out;
+}
+
+Tables AttributeLevels::tables(std::size_t level) const
+{
+	const Level& l = levels_[level];
+	std::vector<Index> vertex(vertex_.begin(), vertex_.begin() + l.vertices), face, corner;
+	for (const Index f : l.face)
+		face.push_back(face_[f]);
+	for (const Index c : l.corner)
+		corner.push_back(corner_[c]);
+	return picked(vertex, face, corner);
+}
+
+Tables AttributeLevels::restoredTables() const
+{
+	return picked(restoredVertex_, restoredFace_, restoredCorner_);
+}
+
+std::array<Index, 3> AttributeLevels::known() const
+{
+	return {knownVertices_, Index(face_.size()), Index(corner_.size())};
+}
+
+std::vector<std::uint8_t> AttributeWriter::rest(std::vector<Channel>& channels)
+{
+	const Tables tables = from_.restoredTables();
+	ByteWriter out;
+	out.fixed(digestOf(tables));
+	RangeEncoder coder;
+	syntax_.codeRest(coder, from_.known(), from_.restored(), tables);
+	const auto stream = coder.finish();
+	out.bytes.insert(out.bytes.end(), stream.begin(), stream.end());
+	channels = from_.channels();
+	for (std::size_t i = 0; i < channels.size(); ++i)
+		channels[i].bytes = (syntax_.bits(i) + 7) / 8;
+	return std::move(out.bytes);
+}
+
+std::uint32_t digestOf(const Tables& tables)
+{
+	ByteWriter out;
+	for (const auto& rows : tables)
+		for (const double x : rows)
+			out.real64(x);
+	return checksum(out.bytes.data(), out.bytes.size());
+}
+
+} // namespace wavemesh
