@@ -33,7 +33,7 @@ struct Models
 	AdaptiveSigned<32> large;
 	Mixer<3> mixer {4};
 	PairMixer<2> pair {4};
-	MixedValue mixed;
+	MixedValue mixed {6144};
 	ResidualShape shapes[MixedValue::kMaxOpinions];
 	ExactSyntax<Coder> wide, narrow;
 };

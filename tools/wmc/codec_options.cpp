@@ -76,8 +76,7 @@ void CodecOptions::addTo(CLI::App& command)
 	    .add_option(
 	        "--wgc", wgc,
 	        "Wavelet geometrical criterion, keeps sharp edges in coarse levels: off, on, or auto "
-	        "(size: both are tried and the smaller file is kept, in compact mode with --effort 3 "
-	        "only, else off; balanced: on; levels does without it)")
+	        "(both are tried for --optimize size, in compact mode with --effort 3 only; else off)")
 	    ->check(CLI::IsMember({"off", "on", "auto"}))
 	    ->capture_default_str()
 	    ->group(group);

@@ -50,7 +50,8 @@ int run(int argc, char** argv)
 		       throw CLI::Success();
 	       },
 	       "Print the manual page")
-	    ->group(""); // for those who build packages
+	    ->trigger_on_parse() // before a command is asked for
+	    ->group("");         // for those who build packages
 	try {
 		app.parse(argc, argv);
 	}

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "container/container.h"
 #include "finish/finish.h"
+#include "level_work.h"
 #include "multires/refine.h"
+#include "stage.h"
 #include "syntax/base_syntax.h"
 #include "syntax/connectivity_syntax.h"
 #include "syntax/detail_syntax.h"
@@ -29,6 +31,8 @@ struct Decoder::State
 	std::unique_ptr<AttributeReader> attributes; ///< if their chunk is there, whole
 	std::optional<MeshData> finished; ///< level J with what follows it, as far as it came
 	Status stopped;                   ///< not ok: no further level can come
+	Progress progress;                ///< of the level being read
+	bool cancelled = false;
 
 	std::size_t offset = 0; ///< of the next chunk
 	Chunk chunk;            ///< the one being read
@@ -51,6 +55,8 @@ struct Decoder::State
 	Status finish();
 	Chunk findAttributes() const;
 	Status advance();
+	bool goesOn(double fraction);
+	Progress watched(double from);
 	Status ended(const char* where) const;
 	Status corrupt(const std::string& what) const;
 	Status wrongSize(std::uint32_t found, const char* elements, std::uint32_t declared) const;
@@ -179,6 +185,8 @@ Status Decoder::State::readSplit()
 	ConnectivitySyntax<RangeDecoder>(coder, *connectivityModels, table, positions).code(refinement);
 	if (coder.exhausted())
 		return ended("the connectivity");
+	if (head.mode == Mode::Classic && !goesOn(kConnectivityWork))
+		return wavemesh::cancelled();
 	if (refinement.childVertices != target.vertices)
 		return wrongSize(refinement.childVertices, "vertices", target.vertices);
 	CornerTable child = refine(table, refinement);
@@ -216,10 +224,17 @@ Status Decoder::State::readChildren(const Refinement& refinement, const CornerTa
 {
 	const Parents parents = parentsOf(table, refinement);
 	if (!compactModels)
-		compactModels = std::make_unique<CompactModels>();
+		compactModels = std::make_unique<CompactModels>(head.predictors);
 	positions.resize(child.vertexCount, {0, 0, 0});
-	PositionSyntax<RangeDecoder>(coder, *compactModels, child, head.lattice.bits, glue)
-	    .codeChildren(table, refinement, parents, row(level + 1).shift, positions);
+	withPositionSyntax<RangeDecoder>(
+	    head.predictors,
+	    [&](auto syntax) {
+		    syntax.watch(watched(kConnectivityWork));
+		    syntax.codeChildren(table, refinement, parents, row(level + 1).shift, positions);
+	    },
+	    coder, *compactModels, child, head.lattice.bits, glue);
+	if (cancelled)
+		return wavemesh::cancelled();
 	return coder.exhausted() ? ended("the positions") : Status();
 }
 
@@ -227,11 +242,17 @@ Status Decoder::State::readChildren(const Refinement& refinement, const CornerTa
 Status Decoder::State::readPrecise()
 {
 	if (!compactModels)
-		compactModels = std::make_unique<CompactModels>();
+		compactModels = std::make_unique<CompactModels>(head.predictors);
 	const int shift = row(level + 1).shift, bits = row(level).shift - shift;
-	const Index whole =
-	    PositionSyntax<RangeDecoder>(coder, *compactModels, table, head.lattice.bits, glue)
-	        .codeBits(shift, bits, positions, {});
+	const Index whole = withPositionSyntax<RangeDecoder>(
+	    head.predictors,
+	    [&](auto syntax) {
+		    syntax.watch(watched(0));
+		    return syntax.codeBits(shift, bits, positions, {});
+	    },
+	    coder, *compactModels, table, head.lattice.bits, glue);
+	if (cancelled)
+		return wavemesh::cancelled();
 	const Status cut = coder.exhausted() ? ended("the positions") : Status();
 	if (!cut.ok() && whole == 0) { // nothing new: the level before, as it was
 		for (LatticePoint& p : positions)
@@ -242,6 +263,19 @@ Status Decoder::State::readPrecise()
 	if (cut.ok() || cut.code == StatusCode::Truncated)
 		++level;
 	return cut;
+}
+
+/// Tells the progress of the level, and remembers the answer.
+bool Decoder::State::goesOn(double fraction)
+{
+	cancelled = progress && !progress(fraction);
+	return !cancelled;
+}
+
+/// The progress of the rest of a level, from `from` on.
+Progress Decoder::State::watched(double from)
+{
+	return [this, from](double fraction) { return goesOn(from + (1 - from) * fraction); };
 }
 
 Status Decoder::State::advance()
@@ -390,9 +424,10 @@ Decoder::open(const std::uint8_t* data, std::size_t size, const DecodeLimits& li
 	return Decoder(std::move(state));
 }
 
-Status Decoder::advance()
+Status Decoder::advance(const Progress& progress)
 {
-	State& s = *state_;
+	State& s   = *state_;
+	s.progress = progress;
 	Status status;
 	try {
 		status = s.advance();
@@ -402,6 +437,7 @@ Status Decoder::advance()
 	catch (const std::bad_alloc&) {
 		status = {StatusCode::OutOfMemory, "not enough memory for " + levelName(s.level + 1)};
 	}
+	s.progress = {};
 	if (!status.ok() && status.code != StatusCode::InvalidArgument)
 		s.stopped = status;
 	return status;
@@ -451,20 +487,26 @@ Result<DecodedMesh> decode(const std::uint8_t* data, std::size_t size, const Dec
 	const StreamInfo& info = decoder->info();
 	const int finest       = info.finestLevel();
 	const int target       = options.level < 0 ? finest : std::min(options.level, finest);
+	std::vector<double> work {0}; // of the levels below
+	for (std::size_t l = 0; l <= std::size_t(target); ++l)
+		work.push_back(
+		    work.back() +
+		    levelWork(info.mode, info.levels[l], l == 0 ? nullptr : &info.levels[l - 1]));
+	const double all = work.back() + (target == finest ? featureWork(info.features) : 0);
 	Status status;
 	while (decoder->level() < target && status.ok()) {
-		const double done = decoder->level() < 0
-		                        ? 0
-		                        : double(info.levels[std::size_t(decoder->level())].vertices) /
-		                              info.levels.back().vertices;
-		if (options.progress && !options.progress(done))
-			return Status(StatusCode::Cancelled, "cancelled");
-		status = decoder->advance();
+		const std::size_t next = std::size_t(decoder->level() + 1);
+		const Stage stage(options.progress, work[next] / all, work[next + 1] / all);
+		if (!stage(0))
+			return cancelled();
+		status = decoder->advance(stage);
 	}
 	if (!status.ok() && (status.code != StatusCode::Truncated || decoder->level() < 0))
 		return status;
 	try {
 		DecodedMesh out {decoder->mesh(), decoder->level(), info};
+		if (options.progress && !options.progress(1))
+			return cancelled();
 		return Result<DecodedMesh>(std::move(out), status);
 	}
 	catch (const std::bad_alloc&) {

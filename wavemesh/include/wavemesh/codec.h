@@ -31,8 +31,8 @@ enum class Mode : std::uint8_t {
 enum class Wgc : std::uint8_t {
 	Off  = 0, ///< geometry-blind coarsening
 	On   = 1,
-	Auto = 2, ///< Size: both are encoded and the smaller file is kept (Compact: with effort 3 only,
-	          ///< else Off). Balanced: On
+	Auto = 2, ///< Optimize::Size: both are encoded and the smaller file is kept (Compact: with
+	          ///< effort 3 only); else Off
 };
 
 /// What the choice of the vertices that each step removes is good for. Sizes and errors of all
@@ -243,8 +243,10 @@ public:
 	/// Level of mesh(), or -1 before the first advance().
 	int level() const;
 	/// Decodes the next level. After an error the decoder stays at the level it had; after
-	/// Truncated it may have moved to a partly predicted level and does not advance any more.
-	Status advance();
+	/// Truncated it may have moved to a partly predicted level and does not advance any more. Nor
+	/// does it after Cancelled.
+	/// @param progress  of this level
+	Status advance(const Progress& progress = {});
 	/// The mesh of the current level. @pre level() >= 0
 	MeshData mesh() const;
 
