@@ -11,6 +11,9 @@
 #include <QDir>
 #include <QRegularExpression>
 
+#include <csignal>
+#include <sys/resource.h>
+
 using namespace wavemesh;
 using namespace wavemesh::test;
 
@@ -135,6 +138,37 @@ TEST(DamagedFiles, TwoHundredAreRefusedWithoutALayerAndEachMessageSaysWhy)
 	}
 	EXPECT_GE(refused, 200u);
 	EXPECT_EQ(freshHost().open(sample("pebble.wmc")).size(), 1u) << "MeshLab goes on";
+}
+
+TEST(DamagedFiles, ThatCannotBeReadAreRefusedWithoutALayer)
+{
+	const QString folder = scratch("folder.wmc");
+	QDir().mkpath(folder);
+	for (const QString& path : {folder, scratch("nowhere.wmc"), QString("/dev/zero")}) {
+		MeshLabHost& host = freshHost();
+		EXPECT_NE(messageOf([&] { host.open(path); }), QString()) << qPrintable(path);
+		EXPECT_EQ(host.document().meshNumber(), 0u);
+	}
+}
+
+TEST(DamagedFiles, AreNotLeftByAFullDisk)
+{
+	MeshLabHost& host = freshHost();
+	host.open(sample("pretzel.ply"));
+	const QString folder = scratch("full"), file = folder + "/old.wmc";
+	QDir().mkpath(folder);
+	writeFile(file, "precious");
+	struct rlimit before = {};
+	::getrlimit(RLIMIT_FSIZE, &before);
+	const struct rlimit full = {1500, before.rlim_max};
+	const auto handler       = std::signal(SIGXFSZ, SIG_IGN); // write() fails, as on a full disk
+	::setrlimit(RLIMIT_FSIZE, &full);
+	const QString message = messageOf([&] { host.save(file); });
+	::setrlimit(RLIMIT_FSIZE, &before);
+	std::signal(SIGXFSZ, handler);
+	EXPECT_TRUE(message.contains("Cannot write")) << qPrintable(message);
+	EXPECT_EQ(contents(file), QByteArray("precious"));
+	EXPECT_EQ(QDir(folder).entryList(QDir::Files | QDir::Hidden), QStringList("old.wmc"));
 }
 
 TEST(DamagedFiles, BehindALayerAreRefusedByBrowsingAndTheLayerStaysAsItWas)

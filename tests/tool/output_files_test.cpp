@@ -169,15 +169,17 @@ TEST_F(WmcTest, StandardOutputThatCannotBeWrittenIsNotSilent)
 TEST_F(WmcTest, ProgressIsShownOnATerminalOnly)
 {
 	writeObj(path("a.obj"), makeBumpySphere(1500, 1));
-	const std::vector<std::string> work = {"report", path("a.obj"), "--samples", "100000"};
+	const std::vector<std::string> work = {"/usr/bin/env", "WMC_PROGRESS_AFTER=0", WMC_PROGRAM,
+	                                       "report",       path("a.obj"),          "--samples",
+	                                       "1000"};
 	RunLimits terminal;
 	terminal.terminal    = true;
-	const RunResult seen = runWmc(work, terminal);
+	const RunResult seen = runProgram(work, terminal);
 	EXPECT_EQ(seen.code, 0);
 	EXPECT_NE(seen.err.find("%"), std::string::npos) << seen.err;
 	// The line is wiped in the end.
 	EXPECT_GE(seen.err.rfind("\r\033[K") + 4, seen.err.size());
-	const RunResult quiet = runWmc(work);
+	const RunResult quiet = runProgram(work);
 	EXPECT_EQ(quiet.code, 0);
 	EXPECT_EQ(quiet.err, "");
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <metrics/surface_distance.h>
 
-#include <metrics/closest_point.h>
 #include "mesh_families.h"
 #include "rng.h"
+#include <metrics/closest_point.h>
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ TEST(ClosestPoint, IsTheNearestOfAllFaces)
 		const metrics::ClosestPoint closest(mesh);
 		for (int i = 0; i < 500; ++i) {
 			const metrics::Vec3 p = {rng.between(-2, 2), rng.between(-2, 2), rng.between(-2, 2)};
-			double best        = 1e300;
+			double best           = 1e300;
 			for (const auto& t : mesh.triangles)
 				best = std::min(
 				    best, metrics::squaredDistance(

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <unistd.h>
 #include <utility>
 
@@ -24,6 +25,13 @@ void wipe()
 	if (isDrawn)
 		std::fputs("\r\033[K", stderr);
 	isDrawn = false;
+}
+
+/// Short work needs no progress; WMC_PROGRESS_AFTER tells otherwise, in milliseconds.
+std::chrono::milliseconds patience()
+{
+	const char* text = std::getenv("WMC_PROGRESS_AFTER");
+	return std::chrono::milliseconds(text ? std::strtoul(text, nullptr, 10) : 1000);
 }
 
 std::string formatted(const char* format, int digits, double x)
@@ -57,9 +65,9 @@ ProgressLine::~ProgressLine()
 void ProgressLine::show(double fraction)
 {
 	static const bool onTerminal = ::isatty(STDERR_FILENO) != 0;
+	static const auto wait       = patience();
 	const auto now               = Clock::now();
-	if (!onTerminal || now - begin < std::chrono::seconds(1) ||
-	    now - lastDrawn < std::chrono::milliseconds(100))
+	if (!onTerminal || now - begin < wait || now - lastDrawn < std::chrono::milliseconds(100))
 		return;
 	lastDrawn = now;
 	isDrawn   = true;

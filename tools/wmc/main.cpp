@@ -34,7 +34,9 @@ int run(int argc, char** argv)
 	app.footer(
 	    "Exit codes: 0 fine; 1 refused input, corrupt file, or output that cannot be written; "
 	    "2 usage.\n'wmc COMMAND --help' tells each command's options, with units and defaults.\n"
-	    "Bits per vertex (bpv) count the whole file and the vertices of the original.");
+	    "Bits per vertex (bpv) count the whole file and the vertices of the original.\n"
+	    "Work of more than a second shows its progress on a terminal; the environment's "
+	    "WMC_PROGRESS_AFTER gives another time, in milliseconds.");
 	addEncode(app, chosen);
 	addDecode(app, chosen);
 	addInfo(app, chosen);
