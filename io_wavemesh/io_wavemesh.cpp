@@ -66,6 +66,16 @@ int fillLayer(MeshModel& layer, const MeshData& data, int level, SharedBytes str
 	return mask;
 }
 
+/// Throws what is wrong with a file, if anything.
+void requireOpened(const Status& status, const QString& fileName)
+{
+	if (status.code == StatusCode::LimitExceeded)
+		throw MLException(
+		    "Cannot open " + fileName + ": " + explain(status) +
+		    " The command wmc decode has options to raise this limit.");
+	require(status, "Cannot open " + fileName);
+}
+
 /// For the progress bar.
 std::string doing(const char* what, const QString& fileName)
 {
@@ -156,7 +166,7 @@ void IOWavemeshPlugin::open(
 		const auto bytes       = readWmc(fileName, request);
 		auto decoder           = Decoder::open(bytes->data(), bytes->size());
 		const auto progress    = progressBar(cb, doing("Decoding all levels of", fileName));
-		require(decoder.status(), "Cannot open " + fileName);
+		requireOpened(decoder.status(), fileName);
 		const int finest = decoder->info().finestLevel();
 		for (MeshModel* layer : layers) {
 			require(decoder->advance(), "Cannot open " + fileName);
@@ -207,7 +217,7 @@ void IOWavemeshPlugin::open(
 		options.progress   = progressBar(cb, doing("Decoding", fileName));
 		const auto decoded = decode(bytes->data(), bytes->size(), options);
 		if (!decoded.hasValue())
-			require(decoded.status(), "Cannot open " + fileName);
+			requireOpened(decoded.status(), fileName);
 
 		const StreamInfo& info = decoded->info;
 		const bool whole       = decoded->level < wholeLevels(info, bytes->size());

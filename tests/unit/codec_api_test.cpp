@@ -66,7 +66,7 @@ TEST(Encode, NeverModifiesItsInput)
 	EXPECT_EQ(mesh.triangles, copy.triangles);
 }
 
-TEST(Encode, WgcAuto_ForSize_IsTheSmallerOfBothInClassicFilesAndAtEffort3)
+TEST(Encode, WgcAuto_ForSize_IsAsSmallAsTheSmallerOfBothInClassicFilesAndAtEffort3)
 {
 	for (const MeshData& mesh :
 	     {makeStarPrism(16, 20), makeBumpySphere(400, 122), makeHoledPlate(2, 4)})
@@ -80,11 +80,11 @@ TEST(Encode, WgcAuto_ForSize_IsTheSmallerOfBothInClassicFilesAndAtEffort3)
 				return encode(mesh, o)->bytes.size();
 			};
 			const std::size_t off = size(Wgc::Off), on = size(Wgc::On);
-			EXPECT_EQ(size(Wgc::Auto), std::min(off, on));
+			EXPECT_LE(size(Wgc::Auto), std::min(off, on));
 		}
 }
 
-TEST(Encode, WgcAuto_IsOffInCompactFilesBelowEffort3AndForLevelsButOnForBalanced)
+TEST(Encode, WgcAuto_IsOffInCompactFilesBelowEffort3AndUnlessForSize)
 {
 	const MeshData mesh = makeStarPrism(16, 20);
 	const auto bytes    = [&](int effort, Optimize optimize, Wgc wgc) {
@@ -98,10 +98,8 @@ TEST(Encode, WgcAuto_IsOffInCompactFilesBelowEffort3AndForLevelsButOnForBalanced
 		EXPECT_EQ(
 		    bytes(effort, Optimize::Size, Wgc::Auto), bytes(effort, Optimize::Size, Wgc::Off));
 	for (const int effort : {1, 2, 3})
-		EXPECT_EQ(
-		    bytes(effort, Optimize::Balanced, Wgc::Auto),
-		    bytes(effort, Optimize::Balanced, Wgc::On));
-	EXPECT_EQ(bytes(3, Optimize::Levels, Wgc::Auto), bytes(3, Optimize::Levels, Wgc::Off));
+		for (const Optimize optimize : {Optimize::Balanced, Optimize::Levels})
+			EXPECT_EQ(bytes(effort, optimize, Wgc::Auto), bytes(effort, optimize, Wgc::Off));
 }
 
 TEST(Encode, SameInput_GivesTheSameBytes)
@@ -152,12 +150,12 @@ TEST(Progress, MovesWithinALargeLevel)
 	const auto file = encode(mesh, o);
 	EXPECT_LT(largest, 0.1);
 
-	// The last level is about a third of the work.
+	// The last split is about half of the work, a third of that its connectivity, in one piece.
 	before = largest = 0;
 	DecodeOptions d;
 	d.progress = progress;
 	ASSERT_TRUE(decode(file->bytes.data(), file->bytes.size(), d).ok());
-	EXPECT_LT(largest, 0.15);
+	EXPECT_LT(largest, 0.2);
 }
 
 TEST(Progress, OfALevelCancels_AndTheDecoderStaysWhereItWas)

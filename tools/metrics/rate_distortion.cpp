@@ -38,7 +38,7 @@ std::vector<Configuration> comparedConfigurations(const EncodeOptions& base)
 Result<Curve> measureCurve(
     const std::vector<std::uint8_t>& file, const DistanceMeter& meter, const Progress& progress)
 {
-	auto decoder = Decoder::open(file.data(), file.size());
+	auto decoder = Decoder::open(file.data(), file.size(), DecodeLimits::none());
 	if (!decoder.ok())
 		return decoder.status();
 	Curve curve;

@@ -58,10 +58,14 @@ struct Decoder::State
 	bool goesOn(double fraction);
 	Progress watched(double from);
 	Status ended(const char* where) const;
-	Status corrupt(const char* what) const;
+	Status corrupt(const std::string& what) const;
+	Status wrongSize(std::uint32_t found, const char* elements, std::uint32_t declared) const;
 };
 
 namespace {
+
+/// So many faces may be in any number of levels.
+constexpr std::uint64_t kFewFaces = 1000;
 
 std::string levelName(int level)
 {
@@ -85,13 +89,21 @@ Status Decoder::State::ended(const char* where) const
 	    size};
 }
 
-Status Decoder::State::corrupt(const char* what) const
+Status Decoder::State::corrupt(const std::string& what) const
 {
 	return {
 	    StatusCode::Corrupt,
 	    levelName(level + 1) + " " + what + " (chunk at offset " +
 	        std::to_string(std::size_t(chunk.payload - data)) + ")",
 	    std::uint64_t(chunk.payload - data)};
+}
+
+Status
+Decoder::State::wrongSize(std::uint32_t found, const char* elements, std::uint32_t declared) const
+{
+	return corrupt(
+	    "has " + std::to_string(found) + " " + elements + " but the head declares " +
+	    std::to_string(declared));
 }
 
 /// Finds the next chunk that must not be skipped, which must be of this type.
@@ -176,10 +188,10 @@ Status Decoder::State::readSplit()
 	if (head.mode == Mode::Classic && !goesOn(kConnectivityWork))
 		return wavemesh::cancelled();
 	if (refinement.childVertices != target.vertices)
-		return corrupt("does not have the number of vertices that the head declares");
+		return wrongSize(refinement.childVertices, "vertices", target.vertices);
 	CornerTable child = refine(table, refinement);
 	if (child.faceCount() != target.faces)
-		return corrupt("does not have the number of faces that the head declares");
+		return wrongSize(child.faceCount(), "faces", target.faces);
 	const Status status =
 	    head.mode == Mode::Classic ? readDetails(refinement) : readChildren(refinement, child);
 	if (status.ok() || status.code == StatusCode::Truncated) {
@@ -212,11 +224,15 @@ Status Decoder::State::readChildren(const Refinement& refinement, const CornerTa
 {
 	const Parents parents = parentsOf(table, refinement);
 	if (!compactModels)
-		compactModels = std::make_unique<CompactModels>();
+		compactModels = std::make_unique<CompactModels>(head.predictors);
 	positions.resize(child.vertexCount, {0, 0, 0});
-	PositionSyntax<RangeDecoder> syntax(coder, *compactModels, child, head.lattice.bits, glue);
-	syntax.watch(watched(kConnectivityWork));
-	syntax.codeChildren(table, refinement, parents, row(level + 1).shift, positions);
+	withPositionSyntax<RangeDecoder>(
+	    head.predictors,
+	    [&](auto syntax) {
+		    syntax.watch(watched(kConnectivityWork));
+		    syntax.codeChildren(table, refinement, parents, row(level + 1).shift, positions);
+	    },
+	    coder, *compactModels, child, head.lattice.bits, glue);
 	if (cancelled)
 		return wavemesh::cancelled();
 	return coder.exhausted() ? ended("the positions") : Status();
@@ -226,11 +242,15 @@ Status Decoder::State::readChildren(const Refinement& refinement, const CornerTa
 Status Decoder::State::readPrecise()
 {
 	if (!compactModels)
-		compactModels = std::make_unique<CompactModels>();
+		compactModels = std::make_unique<CompactModels>(head.predictors);
 	const int shift = row(level + 1).shift, bits = row(level).shift - shift;
-	PositionSyntax<RangeDecoder> syntax(coder, *compactModels, table, head.lattice.bits, glue);
-	syntax.watch(watched(0));
-	const Index whole = syntax.codeBits(shift, bits, positions, {});
+	const Index whole = withPositionSyntax<RangeDecoder>(
+	    head.predictors,
+	    [&](auto syntax) {
+		    syntax.watch(watched(0));
+		    return syntax.codeBits(shift, bits, positions, {});
+	    },
+	    coder, *compactModels, table, head.lattice.bits, glue);
 	if (cancelled)
 		return wavemesh::cancelled();
 	const Status cut = coder.exhausted() ? ended("the positions") : Status();
@@ -334,6 +354,43 @@ Status Decoder::State::openFeature(Feature feature)
 	return {};
 }
 
+namespace {
+
+Status overLimit(std::uint64_t count, const char* what, const char* name, std::uint64_t limit)
+{
+	return {
+	    StatusCode::LimitExceeded, "the file declares " + std::to_string(count) + " " + what +
+	                                   ", more than the limit of " + std::to_string(limit) + " (" +
+	                                   name + ")"};
+}
+
+/// Before memory or time is taken.
+Status checkLimits(const Head& head, const StreamInfo& info, const DecodeLimits& limits)
+{
+	const LevelRow& finest       = head.rows.back();
+	const std::uint32_t vertices = std::max(info.vertices, finest.vertices);
+	const std::uint32_t faces    = std::max(info.faces, finest.faces);
+	if (vertices > limits.maxVertices)
+		return overLimit(vertices, "vertices", "maxVertices", limits.maxVertices);
+	if (faces > limits.maxFaces)
+		return overLimit(faces, "faces", "maxFaces", limits.maxFaces);
+	const std::uint64_t values = info.features.attributeValues;
+	if (values > limits.maxAttributeValues)
+		return overLimit(
+		    values, "numbers in attributes", "maxAttributeValues", limits.maxAttributeValues);
+	// Levels that hardly grow would make decoding take many times what its mesh is worth.
+	std::uint64_t inLevels = 0;
+	for (const LevelRow& row : head.rows)
+		inLevels += row.faces;
+	const std::uint64_t share = inLevels / (std::uint64_t(finest.faces) + kFewFaces);
+	if (share > limits.maxLevelShare)
+		return overLimit(
+		    share, "times its faces in all levels together", "maxLevelShare", limits.maxLevelShare);
+	return {};
+}
+
+} // namespace
+
 Decoder::Decoder(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Decoder::Decoder(Decoder&&) noexcept            = default;
 Decoder& Decoder::operator=(Decoder&&) noexcept = default;
@@ -357,26 +414,13 @@ Decoder::open(const std::uint8_t* data, std::size_t size, const DecodeLimits& li
 	auto head       = readHead(data, size, end);
 	if (!head.ok())
 		return head.status();
-	state->data                  = data;
-	state->size                  = size;
-	state->head                  = std::move(*head);
-	state->info                  = describe(state->head, end);
-	state->offset                = end;
-	const LevelRow& finest       = state->head.rows.back();
-	const std::uint32_t vertices = std::max(state->info.vertices, finest.vertices);
-	const std::uint32_t faces    = std::max(state->info.faces, finest.faces);
-	if (vertices > limits.maxVertices || faces > limits.maxFaces)
-		return Status(
-		    StatusCode::LimitExceeded,
-		    "the file declares " + std::to_string(vertices) + " vertices and " +
-		        std::to_string(faces) + " faces, more than the limit of " +
-		        std::to_string(limits.maxVertices) + " and " + std::to_string(limits.maxFaces));
-	if (state->info.features.attributeValues > limits.maxAttributeValues)
-		return Status(
-		    StatusCode::LimitExceeded, "the file declares " +
-		                                   std::to_string(state->info.features.attributeValues) +
-		                                   " numbers in attributes, more than the limit of " +
-		                                   std::to_string(limits.maxAttributeValues));
+	state->data   = data;
+	state->size   = size;
+	state->head   = std::move(*head);
+	state->info   = describe(state->head, end);
+	state->offset = end;
+	if (Status over = checkLimits(state->head, state->info, limits); !over.ok())
+		return over;
 	return Decoder(std::move(state));
 }
 

@@ -94,7 +94,7 @@ bool writeCompact(
 
 	LevelWriter writer(head, chunks);
 	ConnectivityModels connectivityModels(head.rich ? Contexts::Rich : Contexts::Fast);
-	const auto models              = std::make_unique<CompactModels>();
+	const auto models              = std::make_unique<CompactModels>(head.predictors);
 	const std::vector<double> work = workOf(levels, schedule, bits);
 	std::size_t split              = 0; // levels of connectivity so far, less the base
 	int shift                      = schedule.baseShift;
@@ -135,19 +135,26 @@ bool writeCompact(
 			writer.connectivityEnds();
 			const CornerTable& child = levels.table(++split);
 			appendCells(truth, cells.size(), child.vertexCount, shift, cells);
-			PositionSyntax<RangeEncoder> syntax(writer.coder(), *models, child, bits, levels.glue);
-			syntax.watch(watched);
-			syntax.codeChildren(parent, refinement, parents[split - 1], shift, cells);
+			withPositionSyntax<RangeEncoder>(
+			    head.predictors,
+			    [&](auto syntax) {
+				    syntax.watch(watched);
+				    syntax.codeChildren(parent, refinement, parents[split - 1], shift, cells);
+			    },
+			    writer.coder(), *models, child, bits, levels.glue);
 		}
 		else {
 			shift -= step.bits;
 			std::vector<LatticePoint> finer;
 			finer.reserve(cells.size());
 			appendCells(truth, 0, cells.size(), shift, finer);
-			PositionSyntax<RangeEncoder> syntax(
+			withPositionSyntax<RangeEncoder>(
+			    head.predictors,
+			    [&](auto syntax) {
+				    syntax.watch(watched);
+				    syntax.codeBits(shift, step.bits, cells, finer);
+			    },
 			    writer.coder(), *models, levels.table(split), bits, levels.glue);
-			syntax.watch(watched);
-			syntax.codeBits(shift, step.bits, cells, finer);
 		}
 		if (!running)
 			return false;
