@@ -11,7 +11,8 @@ set(plugin_folder ${CMAKE_INSTALL_LIBDIR})
 if(EXISTS /etc/debian_version AND CMAKE_LIBRARY_ARCHITECTURE)
 	set(plugin_folder lib/${CMAKE_LIBRARY_ARCHITECTURE})
 endif()
-set(WAVEMESH_PLUGIN_INSTALL_DIR ${plugin_folder}/meshlab/plugins CACHE STRING
+set(plugin_folder ${plugin_folder}/meshlab/plugins)
+set(WAVEMESH_PLUGIN_INSTALL_DIR ${plugin_folder} CACHE STRING
 	"Where MeshLab looks for its plugins, below the prefix")
 
 set_target_properties(wavemesh_codec PROPERTIES EXPORT_NAME codec)
@@ -68,10 +69,14 @@ set(CPACK_DEBIAN_CODEC_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_TOOL_PACKAGE_NAME wavemesh-tools)
 set(CPACK_DEBIAN_TOOL_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PLUGINS_PACKAGE_NAME meshlab-wavemesh)
-# A plugin loads into the MeshLab whose headers it was compiled with, and no other.
+# A plugin loads into the MeshLab whose headers it was compiled with, and no other: Debian's, whose
+# version may be a repacked one (2025.07~dfsg), if the plugins go where that looks for them.
 if(meshlab_version)
-	set(CPACK_DEBIAN_PLUGINS_PACKAGE_DEPENDS
-		"meshlab (>= ${meshlab_version}), meshlab (<< ${meshlab_version}.99), libqt5widgets5")
+	set(CPACK_DEBIAN_PLUGINS_PACKAGE_DEPENDS libqt5widgets5)
+	if(WAVEMESH_PLUGIN_INSTALL_DIR STREQUAL plugin_folder)
+		string(PREPEND CPACK_DEBIAN_PLUGINS_PACKAGE_DEPENDS
+			"meshlab (>= ${meshlab_version}~), meshlab (<< ${meshlab_version}.99), ")
+	endif()
 	set(CPACK_COMPONENT_PLUGINS_DESCRIPTION "Opens and saves .wmc in MeshLab ${meshlab_version}")
 endif()
 set(CPACK_COMPONENT_TOOL_DESCRIPTION "wmc, the command line, the file type and its thumbnailer")

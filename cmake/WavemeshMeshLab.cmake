@@ -7,6 +7,7 @@
 #                       carries the name libmeshlab-common.so. That takes no build of MeshLab and
 #                       gives a plugin that loads just as well, but leaves calls into MeshLab
 #                       unproved until then.
+#   MESHLAB_LIBRARY     instead of a build: the libmeshlab-common.so of an installed MeshLab
 #
 # Leaves:
 #   MeshLab::common     headers (as <common/...> and VCGLib, both SYSTEM), MESHLAB_VERSION,
@@ -21,6 +22,7 @@
 
 set(MESHLAB_SOURCE_DIR "" CACHE PATH "MeshLab's source tree, 2022.02 or newer")
 set(MESHLAB_BUILD_DIR "" CACHE PATH "Where MeshLab was built; empty: link against a stub")
+set(MESHLAB_LIBRARY "" CACHE FILEPATH "libmeshlab-common.so of an installed MeshLab")
 set(WAVEMESH_MESHLAB_SCALAR float CACHE STRING "MeshLab's scalar: float; double for PyMeshLab")
 set_property(CACHE WAVEMESH_MESHLAB_SCALAR PROPERTY STRINGS float double)
 set(WAVEMESH_PLUGIN_DIR ${PROJECT_BINARY_DIR}/plugins)
@@ -48,18 +50,28 @@ target_compile_definitions(wavemesh_meshlab_common INTERFACE
 target_link_libraries(wavemesh_meshlab_common INTERFACE
 	Wavemesh::vcglib Qt5::Core Qt5::Gui Qt5::Widgets Qt5::OpenGL Qt5::Xml)
 
+set(meshlab_common_library ${MESHLAB_LIBRARY})
 if(MESHLAB_BUILD_DIR)
-	set(meshlab_common_library ${MESHLAB_BUILD_DIR}/src/distrib/libmeshlab-common.so)
+	if(WIN32)
+		set(meshlab_common_library ${MESHLAB_BUILD_DIR}/src/common/meshlab-common.lib)
+	else()
+		set(meshlab_common_library
+			${MESHLAB_BUILD_DIR}/src/distrib/libmeshlab-common${CMAKE_SHARED_LIBRARY_SUFFIX})
+	endif()
+endif()
+if(meshlab_common_library)
 	if(NOT EXISTS ${meshlab_common_library})
-		message(FATAL_ERROR "MESHLAB_BUILD_DIR has no src/distrib/libmeshlab-common.so: "
-			"'${MESHLAB_BUILD_DIR}'. Build MeshLab's target meshlab-common there, or leave it empty.")
+		message(FATAL_ERROR "There is no ${meshlab_common_library}. Build MeshLab's target "
+			"meshlab-common, or leave MESHLAB_BUILD_DIR and MESHLAB_LIBRARY empty.")
 	endif()
 	add_library(wavemesh_meshlab_library SHARED IMPORTED)
+	set_property(TARGET wavemesh_meshlab_library
+		PROPERTY IMPORTED_IMPLIB ${meshlab_common_library}) # what Windows links
 	set_target_properties(wavemesh_meshlab_library PROPERTIES
 		IMPORTED_LOCATION ${meshlab_common_library}
 		IMPORTED_SONAME libmeshlab-common.so)
 	target_link_libraries(wavemesh_meshlab_common INTERFACE wavemesh_meshlab_library)
-	message(STATUS "MeshLab ${meshlab_version}: ${MESHLAB_BUILD_DIR}")
+	message(STATUS "MeshLab ${meshlab_version}: ${meshlab_common_library}")
 else()
 	file(WRITE ${PROJECT_BINARY_DIR}/meshlab_stub/stub.cpp "")
 	add_library(wavemesh_meshlab_stub SHARED ${PROJECT_BINARY_DIR}/meshlab_stub/stub.cpp)
@@ -80,9 +92,10 @@ function(wavemesh_meshlab_plugin name)
 	wavemesh_target(${name})
 	# --as-needed keeps Qt's and MeshLab's own dependencies (OpenGL, GLEW) out of the plugin, so that
 	# it loads wherever MeshLab itself does. No run path: the host has libmeshlab-common.so loaded.
-	target_link_options(${name} PRIVATE -Wl,--as-needed)
-	if(MESHLAB_BUILD_DIR)
-		target_link_options(${name} PRIVATE -Wl,--no-undefined)
+	# What it leaves on a layer is destroyed by its code, which has to outlive an unloaded plugin.
+	if(CMAKE_SYSTEM_NAME STREQUAL Linux)
+		target_link_options(${name} PRIVATE LINKER:--as-needed LINKER:-z,nodelete
+			$<$<BOOL:${meshlab_common_library}>:LINKER:--no-undefined>)
 	endif()
 	set_target_properties(${name} PROPERTIES
 		AUTOMOC ON

@@ -4,8 +4,12 @@
 # Warnings, hidden symbols, and no fused multiply-add: the encoder's search uses doubles and must
 # choose the same on every processor.
 function(wavemesh_target target)
-	target_compile_options(${target} PRIVATE
-		-Wall -Wextra -Wshadow -Wconversion -ffp-contract=off)
+	if(MSVC)
+		target_compile_options(${target} PRIVATE /W3 /fp:precise /utf-8)
+	else()
+		target_compile_options(${target} PRIVATE
+			-Wall -Wextra -Wshadow -Wconversion -ffp-contract=off)
+	endif()
 	set_target_properties(${target} PROPERTIES
 		POSITION_INDEPENDENT_CODE ON
 		CXX_VISIBILITY_PRESET hidden

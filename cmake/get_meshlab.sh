@@ -57,7 +57,7 @@ write_apt_sources() {
 				}
 			}'
 	# The same for one-line sources: deb [options] address suite components...
-	cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null |
+	{ cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null || true; } |
 		sed -n 's/#.*//; s/^[[:space:]]*deb[[:space:]]\+//p' |
 		awk -v suite="$suite" -v known="$known" -v folder="$folder" '
 			{

@@ -137,26 +137,29 @@ LayerReport::LayerReport(
 	const metrics::DistanceMeter meter(original, samples_);
 	diagonal_ = meter.diagonal();
 
-	const Progress progress = progressBar(cb, "Measuring levels...");
-	const double share      = 1.0 / double(count);
-	const auto measure      = [&](const std::string& name, const std::vector<std::uint8_t>& file,
-                             double from) {
-        auto curve = metrics::measureCurve(
-		         file, meter, partOf(progress, from, share * double(curves_.size() + 1)));
-        require(curve.status(), "Cannot measure " + name_);
-        curve->name = name;
-        curves_.push_back(std::move(*curve));
+	const double share = 1.0 / double(count);
+	const auto stage   = [&](const std::string& doing, double from, double to) {
+        return partOf(progressBar(cb, doing + "..."), share * from, share * to);
+	};
+	const auto measure = [&](const std::string& name, const std::vector<std::uint8_t>& file,
+	                         double from) {
+		const double number = double(curves_.size());
+		auto curve          = metrics::measureCurve(
+		             file, meter, stage("Measuring levels of " + name, number + from, number + 1));
+		require(curve.status(), "Cannot measure " + name_);
+		curve->name = name;
+		curves_.push_back(std::move(*curve));
 	};
 	if (own && levels != nullptr)
 		measure("own .wmc", *levels->stream(), 0);
 	for (const metrics::Configuration& c : chosen) {
-		// Encoding takes about a third of the time.
-		const double begin     = share * double(curves_.size());
-		EncodeOptions encoding = c.options;
-		encoding.progress      = partOf(progress, begin, begin + share / 3);
-		const auto encoded     = encode(original, encoding);
+		constexpr double kEncoding = 0.05; // of the time
+		const double number        = double(curves_.size());
+		EncodeOptions encoding     = c.options;
+		encoding.progress          = stage("Encoding as " + c.name, number, number + kEncoding);
+		const auto encoded         = encode(original, encoding);
 		require(encoded.status(), "Cannot report on " + name_);
-		measure(c.name, encoded->bytes, begin + share / 3);
+		measure(c.name, encoded->bytes, kEncoding);
 	}
 }
 

@@ -6,6 +6,7 @@
 #include "shared/encode_presets.h"
 #include "shared/layer_attributes.h"
 #include "shared/layer_stream.h"
+#include "shared/level_file.h"
 #include "shared/plugin_support.h"
 
 #include <QFileInfo>
@@ -65,6 +66,22 @@ int fillLayer(MeshModel& layer, const MeshData& data, int level, SharedBytes str
 	return mask;
 }
 
+/// Throws what is wrong with a file, if anything.
+void requireOpened(const Status& status, const QString& fileName)
+{
+	if (status.code == StatusCode::LimitExceeded)
+		throw MLException(
+		    "Cannot open " + fileName + ": " + explain(status) +
+		    " The command wmc decode has options to raise this limit.");
+	require(status, "Cannot open " + fileName);
+}
+
+/// For the progress bar.
+std::string doing(const char* what, const QString& fileName)
+{
+	return what + (" " + QFileInfo(fileName).fileName().toStdString()) + "...";
+}
+
 /// "18 432 bytes" and the like.
 QString byteCount(std::uint64_t bytes)
 {
@@ -119,7 +136,7 @@ unsigned int IOWavemeshPlugin::numberMeshesContainedInFile(
 		const OpenRequest request(parameters);
 		if (format.toUpper() != kExtension || !request.allLevels)
 			return 1;
-		const SharedBytes bytes = readWmc(fileName, request);
+		const SharedBytes bytes = readWmc(levelFile(fileName).file, request);
 		const auto info         = readInfo(bytes->data(), bytes->size());
 		require(info.status(), "Cannot open " + QFileInfo(fileName).fileName());
 		int count = wholeLevels(*info, bytes->size());
@@ -131,7 +148,7 @@ unsigned int IOWavemeshPlugin::numberMeshesContainedInFile(
 
 void IOWavemeshPlugin::open(
     const QString& format,
-    const QString& fileName,
+    const QString& name,
     const std::list<MeshModel*>& layers,
     std::list<int>& masks,
     const RichParameterList& parameters,
@@ -141,26 +158,23 @@ void IOWavemeshPlugin::open(
 		const OpenRequest request(parameters);
 		if (layers.size() == 1 && !request.allLevels) {
 			masks.push_back(0);
-			return open(format, fileName, *layers.front(), masks.back(), parameters, cb);
+			return open(format, name, *layers.front(), masks.back(), parameters, cb);
 		}
 		if (format.toUpper() != kExtension)
 			wrongOpenFormat(format);
-		const auto bytes    = readWmc(fileName, request);
-		auto decoder        = Decoder::open(bytes->data(), bytes->size());
-		const auto progress = progressBar(cb, "Decoding levels...");
-		require(decoder.status(), "Cannot open " + fileName);
+		const QString fileName = levelFile(name).file;
+		const auto bytes       = readWmc(fileName, request);
+		auto decoder           = Decoder::open(bytes->data(), bytes->size());
+		const auto progress    = progressBar(cb, doing("Decoding all levels of", fileName));
+		requireOpened(decoder.status(), fileName);
 		const int finest = decoder->info().finestLevel();
 		for (MeshModel* layer : layers) {
 			require(decoder->advance(), "Cannot open " + fileName);
 			masks.push_back(fillLayer(*layer, decoder->mesh(), decoder->level(), bytes));
 			layer->setLabel(levelLabel(QFileInfo(fileName).fileName(), decoder->level(), finest));
-			// A project remembers a layer's file and not its level: a coarse level that bore the
-			// name of the whole file would come back as something else, or overwrite it when saved.
+			// Each a layer by itself, for projects and when it is reloaded.
 			layer->setIdInFile(-1);
-			if (decoder->level() < finest) {
-				layer->loadTextures(); // as long as it has the file's folder to look in
-				layer->setFileName(QString());
-			}
+			nameLevelFile(*layer, decoder->level(), finest);
 			if (progress)
 				progress(double(masks.size()) / double(layers.size()));
 		}
@@ -179,7 +193,7 @@ void IOWavemeshPlugin::open(
 
 void IOWavemeshPlugin::open(
     const QString& format,
-    const QString& fileName,
+    const QString& name,
     MeshModel& layer,
     int& mask,
     const RichParameterList& parameters,
@@ -188,24 +202,29 @@ void IOWavemeshPlugin::open(
 	guarded([&] {
 		if (format.toUpper() != kExtension)
 			wrongOpenFormat(format);
-		const OpenRequest request(parameters);
 		const Stopwatch watch;
+		const auto [fileName, named] = levelFile(name);
+		OpenRequest request(parameters);
+		if (request.level < 0)
+			request.level = named;
 		const SharedBytes bytes = readWmc(fileName, request);
 
 		DecodeOptions options;
 		options.level      = request.level;
-		options.progress   = progressBar(cb, "Decoding...");
+		options.progress   = progressBar(cb, doing("Decoding", fileName));
 		const auto decoded = decode(bytes->data(), bytes->size(), options);
 		if (!decoded.hasValue())
-			require(decoded.status(), "Cannot open " + fileName);
+			requireOpened(decoded.status(), fileName);
 
 		const StreamInfo& info = decoded->info;
 		const bool whole       = decoded->level < wholeLevels(info, bytes->size());
 		mask                   = fillLayer(layer, decoded->mesh, decoded->level, bytes);
+		const QString label    = named < 0 ? layer.label() : QFileInfo(fileName).fileName();
 		layer.setLabel(
 		    decoded->level == info.finestLevel() && whole
-		        ? plainLabel(layer.label())
-		        : levelLabel(layer.label(), decoded->level, info.finestLevel()));
+		        ? plainLabel(label)
+		        : levelLabel(label, decoded->level, info.finestLevel()));
+		nameLevelFile(layer, decoded->level, info.finestLevel());
 		if (decoded.status().code == StatusCode::Truncated && bytes->size() < request.maxBytes)
 			reportWarning(QString("%1 is truncated: it has %2 of %3. Level %4 of %5 is shown%6.")
 			                  .arg(fileName, QString::number(bytes->size()), byteCount(info.bytes))
@@ -272,7 +291,7 @@ void IOWavemeshPlugin::save(
 		options = optionsOf(Preset(preset), options);
 
 		const Stopwatch watch;
-		options.progress  = progressBar(cb, "Encoding...");
+		options.progress  = progressBar(cb, doing("Encoding", fileName));
 		unsigned channels = channelsOf(layer, mask);
 		if (flagOf(parameters, "custom", false))
 			channels |= kCustom;

@@ -221,10 +221,11 @@ def read_fixed_fields(payload):
     head.mode = flags & 7
     head.wgc = flags >> 3 & 1
     head.wide = flags >> 4 & 1
-    head.lifting = (flags >> 5 & 3) - 1                     # -1: off, else k of the k-disc
+    head.lifting = (flags >> 5 & 3) - 1                     # classic: -1: off, else k of the k-disc
+    head.predictors = flags >> 5 & 3                        # compact: few, all, all and repeats
     head.rich = flags >> 7
     head.compact = head.mode == 1
-    if head.mode > 1 or head.features > 15 or not 1 <= head.bits <= 24 or (head.compact and head.lifting >= 0):
+    if head.mode > 1 or head.features > 15 or not 1 <= head.bits <= 24 or (head.compact and head.predictors > 2):
         raise corrupt("a field of the head is out of range")
     layout = "<4dI" if head.wide else "<4fI"
     if len(payload) < 5 + struct.calcsize(layout):
@@ -1634,16 +1635,16 @@ INVERSE = [(1 << 42) // (QUARTER_OCTAVES[c & 3] << (c >> 2)) for c in range(96)]
 class MixingSet:
     __slots__ = ("w", "seen")
 
-    def __init__(self):
-        self.w = [6144] * 16
+    def __init__(self, first):
+        self.w = [first] * 16
         self.seen = 0
 
 
 class Mixing:
     """Weights and refinement."""
 
-    def __init__(self):
-        self.sets = [[[MixingSet() for _ in range(12)] for _ in range(21)] for _ in range(3)]
+    def __init__(self, first):
+        self.sets = [[[MixingSet(first) for _ in range(12)] for _ in range(21)] for _ in range(3)]
         self.E = [[64 * squash(128 * i - 2048) for i in range(33)] for _ in range(21)]
 
 
@@ -1777,11 +1778,11 @@ class LeastSquares:
 class Learned:
     """`births` or `bits`"""
 
-    def __init__(self):
+    def __init__(self, first_weight):
         self.shapes = [[Shape() for _ in range(3)] for _ in range(8)]                           # predictor, band
         self.repeats = [[[Shape() for _ in range(4)] for _ in range(3)] for _ in range(7)]      # repeat, axis, context
-        self.mixing = Mixing()
-        self.ratio = [[-320] * 3 for _ in range(8)]
+        self.mixing = Mixing(first_weight)
+        self.ratio = [[-320] * 3 for _ in range(8)]             # 2..7 are used
         self.normal_ratio = [-320] * 2
         self.offset = [LeastSquares(7) for _ in range(4)]
         self.height = [LeastSquares(9) for _ in range(4)]
@@ -1803,8 +1804,11 @@ class Compact:
     def __init__(self, head, glue):
         self.bits = head.bits
         self.glue = glue
-        self.births = Learned()
-        self.more = Learned()                               # `bits`
+        self.P = 5 if head.predictors == 0 else 8
+        self.has_repeats = head.predictors == 2
+        first_weight = 9830 if head.predictors == 0 else 6144
+        self.births = Learned(first_weight)
+        self.more = Learned(first_weight)                   # `bits`
         self.record = []
         self.values = None                                  # of each axis, sorted: what `count` counts
 
@@ -1820,7 +1824,7 @@ class Compact:
     def read_split(self, decoder, parent, mesh, cells, split, shift):
         """The cells of the finer level, and whether all arrived."""
         self.start(decoder, mesh, shift)
-        if shift == 0 and self.bits <= 16 and self.values is None:
+        if self.has_repeats and shift == 0 and self.bits <= 16 and self.values is None:
             self.values = [sorted(cell[k] for cell in cells) for k in range(3)]
         self.is_birth = True
         self.learned = self.births
@@ -1851,7 +1855,7 @@ class Compact:
     def read_more_bits(self, decoder, mesh, cells, b, shift):
         """The cells after a precise refinement of b bits to `shift`, and whether all arrived."""
         self.start(decoder, mesh, shift)
-        if shift == 0 and self.bits <= 16 and self.values is None:
+        if self.has_repeats and shift == 0 and self.bits <= 16 and self.values is None:
             self.values = [[], [], []]
         self.is_birth = False
         self.learned = self.more
@@ -1932,10 +1936,11 @@ class Compact:
             features = (known_ring, known_all, first, similar, bend, far, wings)
             s.center = ZERO
             zero = shifted(sub(far, wings), 2)
-            s.predictor = [zero,
-                           known_all if g > 0 else zero,
+            s.predictor = [[], [],                          # 0 and 1: axis by axis
+                           zero,
                            known_ring,
                            shifted(known_all, 1),
+                           known_all if g > 0 else zero,
                            similar if s.experienced else zero,
                            first if g > 0 else zero]
             s.class_ = min(g, 3) if c != NONE else 0
@@ -1948,10 +1953,11 @@ class Compact:
                 known_all = first = all_
             features = (ring, all_, bent, known_all, similar, first, sub(self.laplacian[v], ring))
             s.center = ring
-            s.predictor = [all_,
-                           known_all,
+            s.predictor = [[], [],                          # 0 and 1: axis by axis
+                           all_,
                            known_ring if s.known else ring,
                            tuple(trunc_div(4 * x - y, 3) for x, y in zip(ring, all_)),
+                           known_all,
                            bent,
                            first]
             s.class_ = min(g, 3)
@@ -2043,8 +2049,8 @@ class Compact:
         def usual(r, errors):
             return (4 * max(0, l + trunc_div(r, 16)) + 4 * errors) * part
 
-        s.scale = [[min(usual(learned.ratio[i][k], sum(r.error[i][k] for r in records)) >> 17, 95)
-                    for k in range(3)] for i in range(6)]
+        s.scale = [[], []] + [[min(usual(learned.ratio[i][k], sum(r.error[i][k] for r in records)) >> 17, 95)
+                               for k in range(3)] for i in range(2, self.P)]
         s.across = usual(learned.normal_ratio[0], sum(r.normal_error[0] for r in records)) >> 16
         s.tangent = usual(learned.normal_ratio[1], sum(r.normal_error[1] for r in records)) >> 16
         if s.n == ZERO:
@@ -2054,27 +2060,26 @@ class Compact:
 
     def read_coordinates(self, v, s):
         s.x, s.err, cell = [], [], []
-        s.predictor += [[], []]                             # 6 and 7: axis by axis
-        s.scale += [[], []]
         for k in range(3):
-            self.predict_on_surface(s, k, 6, s.across - s.tangent - 14)
-            self.predict_on_surface(s, k, 7, s.across - s.tangent)
+            self.predict_on_surface(s, k, 0, s.across - s.tangent)
+            self.predict_on_surface(s, k, 1, s.across - s.tangent - 14)
             opinions = []
-            for i in range(8):
+            for i in range(self.P):
                 scale = s.scale[i][k]
                 band = 0 if scale < 16 else 1 if scale < 32 else 2
                 opinions.append((s.origin[k] + s.predictor[i][k], scale, self.learned.shapes[i][band]))
-            misses = [sum(abs(s.x[j] - s.predictor[i][j]) for j in range(k)) for i in range(6)]
-            best = misses.index(min(misses))                # i*
-            sure = 0 if k == 0 else 1 if misses[best] <= 8 * k else 2 if misses[best] <= 24 * k else 3
-            if self.shift == 0:
+            misses = [sum(abs(s.x[j] - s.predictor[i][j]) for j in range(k)) for i in range(2, self.P)]
+            least = min(misses)
+            best = 2 + misses.index(least)                  # i*
+            sure = 0 if k == 0 else 1 if least <= 8 * k else 2 if least <= 24 * k else 3
+            if self.has_repeats and self.shift == 0:
                 opinions += self.repeats(s, k, cell, best, sure)
             reader = ValueReader(self.decoder, self.learned.mixing, opinions, self.contexts(s, k, sure),
                                  self.values[k] if self.values is not None and self.shift == 0 else None)
             if self.is_birth:
                 limit = 1 << (self.bits - self.shift)
                 guide = clamp((s.origin[k] + s.best[k] + 8) >> 4, 0, limit - 1)
-                X = reader.around(0, limit, guide, max(0, trunc_div(s.scale[7][k] - 20, 4)))
+                X = reader.around(0, limit, guide, max(0, trunc_div(s.scale[0][k] - 20, 4)))
             else:
                 X = reader.within(self.cell[v][k] << self.b, self.b)
             cell.append(X)
@@ -2083,7 +2088,7 @@ class Compact:
         return tuple(cell)
 
     def predict_on_surface(self, s, k, i, rho):
-        """predictors 6 and 7"""
+        """predictors 0 and 1"""
         n = s.n
         g = exp8(clamp(2 * rho, -80, 48)) - 4096
         q = sum((n[j] * n[j]) >> 14 for j in range(k))
@@ -2117,8 +2122,8 @@ class Compact:
         else:
             sixth = s.known[0] if s.known else None
         told = ((near(s.center[k]), 0),
-                (near(s.predictor[1][k]), min(s.g, 3)),
-                (near(s.predictor[5][k]), 1 if s.g > 0 else 0),
+                (near(s.predictor[5][k]), min(s.g, 3)),
+                (near(s.predictor[7][k]), 1 if s.g > 0 else 0),
                 (cell_of(match), match_context),
                 (cell_of(last), 0 if last is None else 1),
                 (near(s.predictor[best][k]), sure),
@@ -2126,8 +2131,8 @@ class Compact:
         return [(centre, 8, self.learned.repeats[i][k][context]) for i, (centre, context) in enumerate(told)]
 
     def contexts(self, s, k, sure):
-        if not self.is_birth and self.b == 1:
-            A = clamp(trunc_div(s.scale[7][k] - 12, 4), 0, 7)
+        if not self.has_repeats or (not self.is_birth and self.b == 1):
+            A = clamp(trunc_div(s.scale[0][k] - 12, 4), 0, 7)
         else:
             repeated = sum(self.record[u].repeated for u in s.known)
             if not s.known:
@@ -2161,11 +2166,11 @@ class Compact:
 
         record = self.record[v] = Record()
         record.offset = sub(x, s.center)
-        for i in range(8):
+        for i in range(2, self.P):
             for k in range(3):
                 record.error[i][k] = errorlog(x[k] - s.predictor[i][k])
                 follow(learned.ratio[i], k, record.error[i][k])
-        for guess in s.center, s.predictor[1], s.predictor[2], s.predictor[5]:
+        for guess in s.center, s.predictor[3], s.predictor[5], s.predictor[7]:
             if all(abs(x[k] - guess[k]) <= 8 for k in range(3)):
                 record.repeated = 1
         z = sub(x, s.best)
@@ -2714,7 +2719,7 @@ class LatticeReader:
 
     def __init__(self, bits):
         self.bits = bits
-        self.mixing = Mixing()
+        self.mixing = Mixing(6144)
         self.ratio, self.error = ([[0] * 8 for _ in bits] for _ in range(2))
         self.last, self.last_off = [0] * len(bits), [0] * len(bits)
         self.shape = [[[Shape() for _ in range(3)] for _ in range(8)] for _ in bits]

@@ -34,14 +34,14 @@ void require(const Status& status, const QString& doing)
 		throw MLException(doing + ": " + explain(status));
 }
 
-Progress progressBar(vcg::CallBackPos* bar, const char* doing)
+Progress progressBar(vcg::CallBackPos* bar, std::string doing)
 {
 	if (bar == nullptr)
 		return {};
-	return [bar, doing, shown = -1](double fraction) mutable {
+	return [bar, doing = std::move(doing), shown = -1](double fraction) mutable {
 		const int percent = int(100 * fraction);
 		if (percent != shown)
-			bar(shown = percent, doing);
+			bar(shown = percent, doing.c_str());
 		return true;
 	};
 }

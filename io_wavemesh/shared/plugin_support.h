@@ -61,8 +61,8 @@ auto guarded(Work&& work) -> decltype(work())
 }
 
 /// MeshLab's progress bar as the codec's callback; it moves in whole percent. `bar` may be null.
-/// `doing` must outlive the callback.
-Progress progressBar(vcg::CallBackPos* bar, const char* doing);
+/// `doing` stands beside it.
+Progress progressBar(vcg::CallBackPos* bar, std::string doing);
 
 /// Values of parameters; `missing` where a script does not give the parameter. A number may have
 /// been given as an int, a float or an enum.

@@ -170,6 +170,7 @@ std::vector<Golden> goodOnes()
 	        24, kLiftingOff, Wgc::Off));
 	add("compact_smooth", compactFileOf(makeBumpySphere(160, 1), 12).bytes);
 	add("compact_repeats", compactFileOf(punch(makeFlatGrid(12, 12), 9, 1), 12).bytes);
+	add("compact_few_predictors", compactFileOf(makeBumpySphere(16400, 1), 8).bytes);
 	add("compact_effort_3", compactFileOf(makeBumpySphere(160, 1), 12, 3).bytes);
 	add("compact_repeats_effort_3",
 	    compactFileOf(joined({makeFlatGrid(9, 9), makeCube()}), 14, 3).bytes);
@@ -240,8 +241,8 @@ void badCompactOnes(const Add& add)
 			        ++h.rows[i].shift;
 	        }),
 	    StatusCode::Corrupt);
-	add("compact_with_lifting", withHead(file.bytes, [](Head& h) { h.lifting = 1; }),
-	    StatusCode::Corrupt);
+	add("compact_unknown_predictors",
+	    withHead(file.bytes, [](Head& h) { h.predictors = PredictorSet(3); }), StatusCode::Corrupt);
 }
 
 std::vector<Golden> badOnes()

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # MeshLab's window on a display of its own, for the tests of the plugins in it. Sourced by them, with
-# `build` and `out` set; `out` is emptied, and keeps the pictures.
+# `build` and `out` set; `out` is emptied, and keeps the pictures. MESHLAB names another MeshLab than
+# the one in `build`.
 : "${build:?}" "${out:?}"
 
 rm -rf "$out"
@@ -84,7 +85,7 @@ start_meshlab() {
 		sleep 0.1
 	done
 	export DISPLAY=:$(<"$out/display") LIBGL_ALWAYS_SOFTWARE=1
-	"$build/meshlab/meshlab" "$1" >"$out/meshlab.log" 2>&1 &
+	"${MESHLAB:-$build/meshlab/meshlab}" "$1" >"$out/meshlab.log" 2>&1 &
 	meshlab=$!
 	if [[ $1 == *.wmc ]]; then
 		focus 'Pre-Open Options'
@@ -101,6 +102,19 @@ is_large() {
 	xdotool windowmove "$main" 0 0 windowsize "$main" 1270 890
 	sleep 1
 	[[ $(xdotool getwindowgeometry --shell "$main") == *WIDTH=1270*HEIGHT=890* ]]
+}
+
+# The middle of the dialog's Preview box, which stands elsewhere in every MeshLab: its left side is
+# the one dark stroke of such a length in its column.
+preview_row() {
+	import -window root "$out/dialog.png"
+	convert "$out/dialog.png" -crop "1x$HEIGHT+$((X + 10))+$Y" +repage -colorspace gray -depth 8 txt:- |
+		awk -F '[,:() ]+' -v y0="$Y" '
+			/^[0-9]/ {
+				if ($3 < 200) ++run
+				else { if (run >= 9 && run <= 16) middle = y0 + $2 - int(run / 2); run = 0 }
+			}
+			END { print middle + 0 }'
 }
 
 # open_filter NAME [SEARCH]: the filter's dialog, at the right; sets X Y WIDTH HEIGHT of it and the
@@ -123,7 +137,7 @@ open_filter() {
 	# shellcheck disable=SC2034
 	{
 		preview_x=$((X + 16))
-		preview_y=$((Y + HEIGHT - 181))
+		preview_y=$(preview_row)
 		apply_x=$((X + WIDTH - 125))
 		close_x=$((X + 125))
 		buttons_y=$((Y + HEIGHT - 22))

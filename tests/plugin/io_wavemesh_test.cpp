@@ -260,21 +260,48 @@ TEST(IoWavemesh, AProjectComesBackWithEveryLevelAsALayer)
 	EXPECT_TRUE(before[1].label.contains("level 1 of")) << qPrintable(before[1].label);
 	const qint64 size = QFileInfo(folder + "/whole.wmc").size();
 
-	host.saveProject(folder + "/levels.mlp");
-	EXPECT_NEAR(double(QFileInfo(folder + "/whole.wmc").size()), double(size), 0.02 * double(size))
-	    << "a coarse level must not be saved over the whole file";
-	host.clear();
-	host.openProject(folder + "/levels.mlp");
-	EXPECT_TRUE(layers() == before);
+	for (const bool layersToo : {false, true}) {
+		host.saveProject(folder + "/levels.mlp", layersToo);
+		EXPECT_NEAR(
+		    double(QFileInfo(folder + "/whole.wmc").size()), double(size), 0.02 * double(size))
+		    << "a coarse level must not be saved over the whole file";
+		EXPECT_EQ(QDir(folder).exists("whole@1.wmc"), layersToo);
+		host.clear();
+		host.openProject(folder + "/levels.mlp");
+		EXPECT_TRUE(layers() == before);
+	}
 }
 
-TEST(IoWavemesh, ReloadingAnswersWithTheFinestLevel)
+TEST(IoWavemesh, AProjectAndReloadingKeepTheLevelOfALayer)
 {
 	const SavedSample saved;
-	MeshLabHost& host  = freshHost();
-	MeshModel* layer   = host.open(saved.file, {{"level", "1"}}).front();
-	const int vertices = layer->cm.vn;
+	const QString folder = scratch("coarse-project");
+	QDir().mkpath(folder);
+	QFile::copy(saved.file, folder + "/whole.wmc");
+	MeshLabHost& host   = freshHost();
+	MeshModel* layer    = host.open(folder + "/whole.wmc", {{"level", "1"}}).front();
+	const int vertices  = layer->cm.vn;
+	const QString label = layer->label();
+	EXPECT_LT(std::uint32_t(vertices), saved.info.vertices);
+	host.saveProject(folder + "/coarse.mlp", false);
+	host.clear();
+	host.openProject(folder + "/coarse.mlp");
+	layer = host.document().mm();
+	EXPECT_EQ(layer->cm.vn, vertices);
+	EXPECT_EQ(layer->label(), label);
 	host.reload(*layer);
-	EXPECT_GT(layer->cm.vn, vertices);
+	EXPECT_EQ(layer->cm.vn, vertices);
+
+	// Browsed to the end, the layer has the name of the whole file again.
+	host.apply("Wavemesh: Browse Levels", {{"level", "-1"}});
+	EXPECT_EQ(layer->shortName(), "whole.wmc");
+	host.reload(*layer);
 	EXPECT_EQ(std::uint32_t(layer->cm.vn), saved.info.vertices);
+
+	// A file of such a name is what it is.
+	host.apply("Wavemesh: Browse Levels", {{"level", "0"}});
+	const int coarsest = layer->cm.vn;
+	host.save(folder + "/whole@1.wmc");
+	EXPECT_EQ(host.open(folder + "/whole@1.wmc").front()->cm.vn, coarsest);
+	EXPECT_THROW(host.open(folder + "/none@1.wmc"), MLException);
 }

@@ -128,11 +128,11 @@ void MeshLabHost::reload(MeshModel& layer)
 	meshlab::reloadMesh(layer.fullName(), {&layer}, &document_->Log, progress);
 }
 
-void MeshLabHost::saveProject(const QString& file)
+void MeshLabHost::saveProject(const QString& file, bool layersToo)
 {
 	const KeepCurrentFolder keep;
-	// As MeshLab's "Save All Files": to the folder of the project.
-	meshlab::saveAllMeshes(QFileInfo(file).absolutePath(), *document_);
+	if (layersToo) // MeshLab's "Save All Files"
+		meshlab::saveAllMeshes(QFileInfo(file).absolutePath(), *document_);
 	meshlab::saveProject(QFileInfo(file).absoluteFilePath(), *document_, false);
 }
 

@@ -54,8 +54,8 @@ public:
 	/// @param mask  what to save of it, bits of vcg::tri::io::Mask; without, what the plugin has
 	///              chosen at first
 	void save(const QString& file, const Settings& settings = {}, std::optional<int> mask = {});
-	/// Saves the layers as files of a folder, and the document as a project (.mlp) there.
-	void saveProject(const QString& file);
+	/// Saves the document as a project (.mlp), and the layers too, as files beside it, if asked.
+	void saveProject(const QString& file, bool layersToo = true);
 	/// Opens a project: its layers are added to the document.
 	void openProject(const QString& file);
 	/// What the plugins warned about while opening and saving since the last call.

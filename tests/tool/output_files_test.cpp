@@ -61,6 +61,49 @@ TEST_F(WmcTest, AFullDiskLeavesTheOldFileAndNoTemporary)
 	EXPECT_EQ(files(), (Names {"a.obj", "a.wmc", "old.wmc"}));
 }
 
+TEST_F(WmcTest, AFileOverALimitIsRefusedWithItsNameAndTheOptionsThatRaiseIt)
+{
+	const std::string wmc = encoded("a", makeTorus(8, 8));
+	for (const std::string limit : {"vertices", "faces"}) {
+		const RunResult r = runWmc({"decode", wmc, path("out.ply"), "--max-" + limit, "63"});
+		EXPECT_EQ(r.code, 1);
+		EXPECT_EQ(r.errorLines(), 1u) << r.err;
+		EXPECT_NE(r.err.find(limit + ", more than the limit of 63"), std::string::npos) << r.err;
+		EXPECT_NE(r.err.find("--max-"), std::string::npos) << r.err;
+	}
+	EXPECT_EQ(files(), (Names {"a.obj", "a.wmc"}));
+}
+
+TEST_F(WmcTest, AFileThatIsCutWhileItIsReadIsToldToBeCut)
+{
+	const std::string wmc = encoded("a", makeBumpySphere(3000, 1));
+	const auto size       = std::to_string(fs::file_size(wmc) / 2);
+	// A pipe that ends early looks like a file that got shorter.
+	const RunResult r = runProgram(
+	    {"/bin/sh", "-c", "head -c \"$3\" \"$1\" | \"$0\" decode /dev/stdin \"$2\"", WMC_PROGRAM,
+	     wmc, path("out.ply"), size});
+	EXPECT_EQ(r.code, 0) << r.err;
+	EXPECT_NE(r.err.find("the file ends"), std::string::npos) << r.err;
+	EXPECT_EQ(files(), (Names {"a.obj", "a.wmc", "out.ply"}));
+}
+
+TEST_F(WmcTest, AFileThatIsReplacedWhileItIsReadIsReadAsItWasOrRefused)
+{
+	const std::string wmc    = encoded("a", makeBumpySphere(3000, 1));
+	const FileBytes original = readAll(wmc);
+	FileBytes mixed          = original; // the beginning of one, the end of another
+	const std::string other  = encoded("b", makeBumpySphere(3000, 2));
+	const FileBytes second   = readAll(other);
+	const std::size_t half   = std::min(original.size(), second.size()) / 2;
+	mixed.resize(half);
+	mixed.insert(mixed.end(), second.begin() + std::ptrdiff_t(half), second.end());
+	writeAll(path("mixed.wmc"), mixed);
+	const RunResult r = runWmc({"decode", path("mixed.wmc"), path("out.ply")});
+	EXPECT_EQ(r.code, 1);
+	EXPECT_EQ(r.errorLines(), 1u) << r.err;
+	EXPECT_FALSE(fs::exists(path("out.ply")));
+}
+
 TEST_F(WmcTest, AFailedCommandLeavesTheOldFile)
 {
 	writeAll(path("bad.wmc"), std::string("this is no wmc"));

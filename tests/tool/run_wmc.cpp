@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
@@ -25,7 +24,6 @@ namespace {
 	if (limits.fileBytes > 0) {
 		const struct rlimit limit = {limits.fileBytes, limits.fileBytes};
 		::setrlimit(RLIMIT_FSIZE, &limit);
-		std::signal(SIGXFSZ, SIG_IGN); // write() fails, as on a full disk
 	}
 	std::vector<char*> argv;
 	for (const std::string& word : command)

@@ -307,6 +307,25 @@ TEST(AnyMesh, SingleTrianglesComeBack)
 	EXPECT_EQ(whatFails(mesh), "");
 }
 
+TEST(AnyMesh, AHubOfManyFacesComesBack)
+{
+	// Corner by corner around the hub, for each of its faces, this would not end.
+	constexpr std::uint32_t kSpokes = 400'000;
+	MeshData fan;
+	addVertex(fan, 0, 0, 1);
+	for (std::uint32_t i = 0; i < kSpokes; ++i)
+		addVertex(fan, std::cos(kTau * i / kSpokes), std::sin(kTau * i / kSpokes), i % 7);
+	for (std::uint32_t i = 0; i < kSpokes; ++i)
+		addFace(fan, 0, 1 + i, 1 + (i + 1) % kSpokes);
+	EncodeOptions o;
+	o.effort        = 1;
+	const auto file = encode(fan, o);
+	ASSERT_TRUE(file.ok());
+	const auto back = decode(file->bytes.data(), file->bytes.size());
+	ASSERT_TRUE(back.ok()) << back.status().what;
+	EXPECT_EQ(back->mesh.triangles.size(), kSpokes);
+}
+
 TEST(AnyMesh, CopiesOfAVertexStayTogetherInEveryLevel)
 {
 	const MeshData mesh = makeBook(4, 40, 12);

@@ -66,7 +66,7 @@ TEST(Encode, NeverModifiesItsInput)
 	EXPECT_EQ(mesh.triangles, copy.triangles);
 }
 
-TEST(Encode, WgcAuto_ForSize_IsTheSmallerOfBothInClassicFilesAndAtEffort3)
+TEST(Encode, WgcAuto_ForSize_IsAsSmallAsTheSmallerOfBothInClassicFilesAndAtEffort3)
 {
 	for (const MeshData& mesh :
 	     {makeStarPrism(16, 20), makeBumpySphere(400, 122), makeHoledPlate(2, 4)})
@@ -80,11 +80,11 @@ TEST(Encode, WgcAuto_ForSize_IsTheSmallerOfBothInClassicFilesAndAtEffort3)
 				return encode(mesh, o)->bytes.size();
 			};
 			const std::size_t off = size(Wgc::Off), on = size(Wgc::On);
-			EXPECT_EQ(size(Wgc::Auto), std::min(off, on));
+			EXPECT_LE(size(Wgc::Auto), std::min(off, on));
 		}
 }
 
-TEST(Encode, WgcAuto_IsOffInCompactFilesBelowEffort3AndForLevelsButOnForBalanced)
+TEST(Encode, WgcAuto_IsOffInCompactFilesBelowEffort3AndUnlessForSize)
 {
 	const MeshData mesh = makeStarPrism(16, 20);
 	const auto bytes    = [&](int effort, Optimize optimize, Wgc wgc) {
@@ -98,10 +98,8 @@ TEST(Encode, WgcAuto_IsOffInCompactFilesBelowEffort3AndForLevelsButOnForBalanced
 		EXPECT_EQ(
 		    bytes(effort, Optimize::Size, Wgc::Auto), bytes(effort, Optimize::Size, Wgc::Off));
 	for (const int effort : {1, 2, 3})
-		EXPECT_EQ(
-		    bytes(effort, Optimize::Balanced, Wgc::Auto),
-		    bytes(effort, Optimize::Balanced, Wgc::On));
-	EXPECT_EQ(bytes(3, Optimize::Levels, Wgc::Auto), bytes(3, Optimize::Levels, Wgc::Off));
+		for (const Optimize optimize : {Optimize::Balanced, Optimize::Levels})
+			EXPECT_EQ(bytes(effort, optimize, Wgc::Auto), bytes(effort, optimize, Wgc::Off));
 }
 
 TEST(Encode, SameInput_GivesTheSameBytes)
@@ -114,22 +112,62 @@ TEST(Encode, SameInput_GivesTheSameBytes)
 
 TEST(Progress, OfEncode_IsMonotoneFrom0To1)
 {
-	for (const Wgc wgc : {Wgc::Off, Wgc::On, Wgc::Auto}) {
-		EncodeOptions o;
-		o.wgc         = wgc;
-		double before = 0;
-		int calls     = 0;
-		o.progress    = [&](double fraction) {
-            EXPECT_GE(fraction, before - 1e-12);
-            EXPECT_LE(fraction, 1 + 1e-12);
-            before = fraction;
-            ++calls;
-            return true;
-		};
-		ASSERT_TRUE(encode(makeBumpySphere(1500, 124), o).ok());
-		EXPECT_GE(calls, 5);
-		EXPECT_GT(before, 0.9);
-	}
+	const MeshData mesh = makeBumpySphere(1500, 124);
+	for (const Mode mode : {Mode::Classic, Mode::Compact})
+		for (const int effort : {1, 2, 3})
+			for (const Wgc wgc : {Wgc::Off, Wgc::Auto}) {
+				EncodeOptions o;
+				o.mode        = mode;
+				o.effort      = effort;
+				o.wgc         = wgc;
+				o.keepOrder   = wgc == Wgc::Off;
+				double before = 0;
+				int calls     = 0;
+				o.progress    = [&](double fraction) {
+                    EXPECT_GE(fraction, before - 1e-12);
+                    before = fraction;
+                    ++calls;
+                    return true;
+				};
+				ASSERT_TRUE(encode(mesh, o).ok());
+				EXPECT_GE(calls, 5);
+				EXPECT_NEAR(before, 1, 1e-12);
+			}
+}
+
+TEST(Progress, MovesWithinALargeLevel)
+{
+	const MeshData mesh = makeBumpySphere(20000, 127);
+	double before = 0, largest = 0;
+	const auto progress = [&](double fraction) {
+		largest = std::max(largest, fraction - before);
+		before  = fraction;
+		return true;
+	};
+	EncodeOptions o;
+	o.effort        = 3;
+	o.progress      = progress;
+	const auto file = encode(mesh, o);
+	EXPECT_LT(largest, 0.1);
+
+	// The last split is about half of the work, a third of that its connectivity, in one piece.
+	before = largest = 0;
+	DecodeOptions d;
+	d.progress = progress;
+	ASSERT_TRUE(decode(file->bytes.data(), file->bytes.size(), d).ok());
+	EXPECT_LT(largest, 0.2);
+}
+
+TEST(Progress, OfALevelCancels_AndTheDecoderStaysWhereItWas)
+{
+	const auto file = encode(makeBumpySphere(5000, 128));
+	auto decoder    = Decoder::open(file->bytes.data(), file->bytes.size());
+	while (decoder->info().levels[std::size_t(decoder->level() + 1)].vertices < 2000)
+		ASSERT_TRUE(decoder->advance().ok());
+	const int level = decoder->level();
+	EXPECT_EQ(decoder->advance([](double) { return false; }).code, StatusCode::Cancelled);
+	EXPECT_EQ(decoder->level(), level);
+	EXPECT_EQ(decoder->advance().code, StatusCode::Cancelled);
 }
 
 TEST(Progress, CancelsEncodeAtEveryCall)
@@ -170,6 +208,7 @@ TEST(Progress, OfDecode_IsMonotoneAndCancels)
 		const auto back = decode(file->bytes.data(), file->bytes.size(), o);
 		if (back.ok()) {
 			EXPECT_GE(limit, static_cast<int>(file->info.levels.size()) - 1);
+			EXPECT_EQ(before, 1);
 			break;
 		}
 		ASSERT_EQ(back.status().code, StatusCode::Cancelled);

@@ -272,13 +272,23 @@ TEST(Head, WithTheLargestShiftsThatItCanSay_IsCorruptNotMore)
 	EXPECT_EQ(codeOf(h), StatusCode::Corrupt);
 }
 
-TEST(Head, OfACompactFileWithLifting_IsCorrupt)
+TEST(Head, OfACompactFileSaysItsPredictors)
 {
-	for (const int lifting : {0, 1, 2}) {
-		Head h    = compactHead(12, 1, 2);
-		h.lifting = lifting;
-		EXPECT_EQ(codeOf(h), StatusCode::Corrupt);
+	for (const int set : {0, 1, 2}) {
+		Head h       = compactHead(12, 1, 2);
+		h.predictors = PredictorSet(set);
+		std::vector<std::uint8_t> file;
+		writeHead(h, file);
+		std::size_t end = 0;
+		EXPECT_EQ(readHead(file.data(), file.size(), end)->predictors, PredictorSet(set));
 	}
+}
+
+TEST(Head, OfACompactFileWithUnknownPredictors_IsCorrupt)
+{
+	Head h       = compactHead(12, 1, 2);
+	h.predictors = PredictorSet(3);
+	EXPECT_EQ(codeOf(h), StatusCode::Corrupt);
 }
 
 TEST(Head, WithAFrameThatIsNotALattice_IsCorrupt)

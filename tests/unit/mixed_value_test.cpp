@@ -33,7 +33,7 @@ struct EvenCounts
 template <std::size_t N, class Coder>
 std::vector<std::int64_t> run(Coder& coder, const std::vector<Task>& tasks)
 {
-	const auto value = std::make_unique<MixedValue>();
+	const auto value = std::make_unique<MixedValue>(6144);
 	std::vector<ResidualShape> shapes(N);
 	const EvenCounts even;
 	std::vector<std::int64_t> out;
@@ -57,7 +57,8 @@ std::vector<std::int64_t> valuesOf(const std::vector<Task>& tasks)
 	return out;
 }
 
-constexpr std::size_t kMost = MixedValue::kMaxOpinions, kFew = MixedValue::kFewOpinions;
+constexpr std::size_t kMost = MixedValue::kMaxOpinions, kSome = MixedValue::kSomeOpinions,
+                      kFew = MixedValue::kFewOpinions;
 
 template <std::size_t N>
 std::vector<std::uint8_t> encoded(const std::vector<Task>& tasks)
@@ -124,6 +125,7 @@ TEST(MixedValue, ReadsWhatWasWrittenWithFewOpinionsAndWithAll)
 {
 	for (std::uint64_t seed = 500; seed < 510; ++seed) {
 		expectInverse<kFew>(randomTasks(seed, 300));
+		expectInverse<kSome>(randomTasks(seed, 300));
 		expectInverse<kMost>(randomTasks(seed, 300));
 	}
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Positions in the compact mode: what is written is read, and what is cut stays where it was.
 #include "entropy/range_coder.h"
+#include "multires/vertex_walk.h"
 #include "stage_meshes.h"
 #include "syntax/position_syntax.h"
 
@@ -36,9 +37,15 @@ template <class Coder>
 class PlanRunner
 {
 public:
-	PlanRunner(Coder& coder, const Levels& levels, int fullBits, const Glue& glue) :
-	        coder_(coder), levels_(levels), fullBits_(fullBits), glue_(glue),
-	        models_(std::make_unique<CompactModels>())
+	PlanRunner(
+	    Coder& coder,
+	    const Levels& levels,
+	    int fullBits,
+	    const Glue& glue,
+	    PredictorSet set = PredictorSet::Repeats) :
+	        coder_(coder),
+	        levels_(levels), fullBits_(fullBits), glue_(glue), set_(set),
+	        models_(std::make_unique<CompactModels>(set))
 	{
 	}
 
@@ -74,10 +81,14 @@ private:
 			cells.resize(child.vertexCount, {0, 0, 0});
 		else
 			cells = cellsOf(levels_.positions, child.vertexCount, shift_);
-		const Index whole = PositionSyntax<Coder>(coder_, *models_, child, fullBits_, glue_)
-		                        .codeChildren(
-		                            level.parent, level.refinement,
-		                            parentsOf(level.parent, level.refinement), shift_, cells);
+		const Index whole = withPositionSyntax<Coder>(
+		    set_,
+		    [&](auto syntax) {
+			    return syntax.codeChildren(
+			        level.parent, level.refinement, parentsOf(level.parent, level.refinement),
+			        shift_, cells);
+		    },
+		    coder_, *models_, child, fullBits_, glue_);
 		compare(child, whole, child.vertexCount - level.parent.vertexCount);
 	}
 
@@ -87,8 +98,12 @@ private:
 			return;
 		shift_ -= bits;
 		const Cells truth = cellsOf(levels_.positions, cells.size(), shift_);
-		const Index whole = PositionSyntax<Coder>(coder_, *models_, table(i), fullBits_, glue_)
-		                        .codeBits(shift_, bits, cells, Coder::kReading ? Cells {} : truth);
+		const Index whole = withPositionSyntax<Coder>(
+		    set_,
+		    [&](auto syntax) {
+			    return syntax.codeBits(shift_, bits, cells, Coder::kReading ? Cells {} : truth);
+		    },
+		    coder_, *models_, table(i), fullBits_, glue_);
 		compare(table(i), whole, table(i).vertexCount);
 	}
 
@@ -102,22 +117,29 @@ private:
 	const Levels& levels_;
 	const int fullBits_;
 	const Glue& glue_;
+	const PredictorSet set_;
 	std::unique_ptr<CompactModels> models_;
 	int shift_ = 0;
 };
 
 const Glue kNoGlue;
+constexpr PredictorSet kSets[] = {PredictorSet::Few, PredictorSet::All, PredictorSet::Repeats};
 
-std::string whatIsNotRead(const Levels& levels, int bits, const Plan& plan, const Glue& glue)
+std::string whatIsNotRead(
+    const Levels& levels,
+    int bits,
+    const Plan& plan,
+    const Glue& glue,
+    PredictorSet set = PredictorSet::Repeats)
 {
 	RangeEncoder encoder;
-	PlanRunner<RangeEncoder> writer(encoder, levels, bits, glue);
+	PlanRunner<RangeEncoder> writer(encoder, levels, bits, glue, set);
 	writer.run(plan);
 	if (!writer.isRight)
 		return "writing changed the cells";
 	const auto stream = encoder.finish();
 	RangeDecoder decoder(stream.data(), stream.size());
-	PlanRunner<RangeDecoder> reader(decoder, levels, bits, glue);
+	PlanRunner<RangeDecoder> reader(decoder, levels, bits, glue, set);
 	reader.run(plan);
 	if (decoder.exhausted())
 		return "the stream is too short";
@@ -147,7 +169,9 @@ TEST_P(EveryFamilysPositions, OfEveryPlanAreRead)
 		     {most, {most}}, // everything after the first split
 		     {std::min(most, 5), {1}}};
 		for (std::size_t i = 0; i < std::size(plans); ++i)
-			ASSERT_EQ(whatIsNotRead(levels, bits, plans[i], {}), "") << bits << " bits, plan " << i;
+			for (const PredictorSet set : kSets)
+				ASSERT_EQ(whatIsNotRead(levels, bits, plans[i], {}, set), "")
+				    << bits << " bits, plan " << i << ", set " << int(set);
 	}
 }
 
@@ -178,7 +202,9 @@ TEST(PositionSyntax, OfAnyPositionsAreRead)
 						x = round == 2 ? top : 0;
 					}
 			for (const Plan& plan : {Plan {0, {}}, Plan {bits - 1, {}}, Plan {bits - 1, {1}}})
-				ASSERT_EQ(whatIsNotRead(levels, bits, plan, {}), "") << round << ' ' << bits;
+				for (const PredictorSet set : kSets)
+					ASSERT_EQ(whatIsNotRead(levels, bits, plan, {}, set), "")
+					    << round << ' ' << bits << ' ' << int(set);
 		}
 }
 
@@ -219,8 +245,8 @@ TEST_P(Cut, ChildrenThatArrivedAreExactAndTheOthersBetweenTheirParents)
 		const Cells truth = cellsOf(levels.positions, child.vertexCount, shift);
 		RangeEncoder encoder;
 		Cells cells = truth;
-		CompactModels models;
-		PositionSyntax<RangeEncoder>(encoder, models, child, 12, {})
+		CompactModels models(PredictorSet::Repeats);
+		PositionSyntax<RangeEncoder, PredictorSet::Repeats>(encoder, models, child, 12, {})
 		    .codeChildren(last.parent, last.refinement, parents, shift, cells);
 		const auto stream = encoder.finish();
 		const auto order  = coded(child, last.parent.vertexCount);
@@ -231,9 +257,9 @@ TEST_P(Cut, ChildrenThatArrivedAreExactAndTheOthersBetweenTheirParents)
 			const std::vector<std::uint8_t> cut(
 			    stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(n));
 			RangeDecoder decoder(cut.data(), cut.size());
-			CompactModels learnt;
+			CompactModels learnt(PredictorSet::Repeats);
 			const Index whole =
-			    PositionSyntax<RangeDecoder>(decoder, learnt, child, 12, {})
+			    PositionSyntax<RangeDecoder, PredictorSet::Repeats>(decoder, learnt, child, 12, {})
 			        .codeChildren(last.parent, last.refinement, parents, shift, read);
 			ASSERT_GE(whole, before);
 			before = whole;
@@ -257,8 +283,8 @@ TEST_P(Cut, BitsThatArrivedAreExactAndTheOthersInsideTheirOldCell)
 		const Cells coarse = cellsOf(mesh.positions, mesh.positions.size(), bits);
 		RangeEncoder encoder;
 		Cells cells = coarse;
-		CompactModels models;
-		PositionSyntax<RangeEncoder>(encoder, models, mesh.table, 12, {})
+		CompactModels models(PredictorSet::Repeats);
+		PositionSyntax<RangeEncoder, PredictorSet::Repeats>(encoder, models, mesh.table, 12, {})
 		    .codeBits(0, bits, cells, mesh.positions);
 		ASSERT_EQ(cells, mesh.positions);
 		const auto stream = encoder.finish();
@@ -269,8 +295,9 @@ TEST_P(Cut, BitsThatArrivedAreExactAndTheOthersInsideTheirOldCell)
 			const std::vector<std::uint8_t> cut(
 			    stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(n));
 			RangeDecoder decoder(cut.data(), cut.size());
-			CompactModels learnt;
-			const Index whole = PositionSyntax<RangeDecoder>(decoder, learnt, mesh.table, 12, {})
+			CompactModels learnt(PredictorSet::Repeats);
+			const Index whole = PositionSyntax<RangeDecoder, PredictorSet::Repeats>(
+			                        decoder, learnt, mesh.table, 12, {})
 			                        .codeBits(0, bits, read, {});
 			ASSERT_GE(whole, before);
 			before = whole;
@@ -320,8 +347,8 @@ TEST(PositionSyntax, OfCopiesAreCodedOnceAndStayTogetherEvenWhenCut)
 	const auto coded        = [&, &mesh = mesh](const Glue& g) {
         RangeEncoder encoder;
         Cells cells = coarse;
-        CompactModels models;
-        PositionSyntax<RangeEncoder>(encoder, models, mesh.table, 12, g)
+        CompactModels models(PredictorSet::Repeats);
+        PositionSyntax<RangeEncoder, PredictorSet::Repeats>(encoder, models, mesh.table, 12, g)
             .codeBits(0, 5, cells, mesh.positions);
         EXPECT_EQ(cells, mesh.positions);
         return encoder.finish();
@@ -332,9 +359,10 @@ TEST(PositionSyntax, OfCopiesAreCodedOnceAndStayTogetherEvenWhenCut)
 		const std::vector<std::uint8_t> cut(
 		    stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(n));
 		RangeDecoder decoder(cut.data(), cut.size());
-		CompactModels models;
+		CompactModels models(PredictorSet::Repeats);
 		Cells read        = coarse;
-		const Index whole = PositionSyntax<RangeDecoder>(decoder, models, mesh.table, 12, glue)
+		const Index whole = PositionSyntax<RangeDecoder, PredictorSet::Repeats>(
+		                        decoder, models, mesh.table, 12, glue)
 		                        .codeBits(0, 5, read, {});
 		for (Index v = 0; v < mesh.table.vertexCount; ++v) {
 			if (glue.isCopy(v)) {

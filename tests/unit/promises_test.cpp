@@ -180,6 +180,17 @@ TEST(Exact, SpecialNumbersComeBack)
 	}
 }
 
+TEST(Exact, IsolatedVerticesThatAreNowhereComeBack)
+{
+	EncodeOptions o;
+	o.exact = true;
+	for (const double x : {kInfinity, -kInfinity, std::nan("")}) {
+		MeshData mesh = makeIcosphere(2);
+		mesh.positions.push_back({x, 0.5, x});
+		EXPECT_EQ(whatFails(mesh, o), "") << x;
+	}
+}
+
 TEST(Exact, WithoutItANumberThatIsNotFiniteIsRefusedAndTheVertexNamed)
 {
 	for (const double x : {kInfinity, -kInfinity, std::nan("")}) {
@@ -189,6 +200,31 @@ TEST(Exact, WithoutItANumberThatIsNotFiniteIsRefusedAndTheVertexNamed)
 		EXPECT_EQ(file.status().code, StatusCode::InvalidArgument);
 		EXPECT_NE(file.status().what.find("vertex 17"), std::string::npos);
 	}
+}
+
+TEST(Exact, CoordinatesBeyondAllFloatsNeedItNot)
+{
+	constexpr double kLargest = std::numeric_limits<double>::max();
+	for (const auto& [x, y] :
+	     {std::array<double, 2> {1e200, 0},
+	      {3.5e38, -3.5e38},
+	      {1.7e308, 0},
+	      {kLargest, 0},
+	      {0, -kLargest},
+	      {kLargest / 2, -kLargest / 2}})
+		for (const int bits : {1, 7, 12, 24}) {
+			MeshData mesh        = makeIcosphere(2);
+			mesh.positions[7][2] = x;
+			mesh.positions[9][2] = y;
+			EncodeOptions o;
+			o.bits = bits;
+			ASSERT_EQ(whatFails(mesh, o), "") << x << " " << y << " " << bits;
+			const auto file = encode(mesh, o);
+			const auto back = decode(file->bytes.data(), file->bytes.size());
+			for (const auto& p : back->mesh.positions)
+				for (const double c : p)
+					ASSERT_TRUE(std::isfinite(c)) << x << " " << y << " " << bits;
+		}
 }
 
 TEST(Exact, LinesAndPlanesComeBack)

@@ -135,6 +135,11 @@ std::vector<SmallFile> smallFiles()
 	     false, false, Mode::Compact, 3, Optimize::Size},
 	    {"compact_every_promise", withColours(makeNoManifold()), 8, 0, Wgc::Off, true, true,
 	     Mode::Compact},
+	    {"every_promise_in_levels", withColours(joined({makeNoManifold(), makeTerrain(50, 4)})), 10,
+	     0, Wgc::Off, true, true},
+	    {"compact_every_promise_in_levels",
+	     withColours(joined({makeNoManifold(), makeBumpySphere(40, 4)})), 10, 0, Wgc::Off, true,
+	     true, Mode::Compact},
 	    {"compact_24_bits", makeFlippedSphere(30, 5), 24, 0, Wgc::Off, false, false, Mode::Compact},
 	};
 	std::vector<SmallFile> files;

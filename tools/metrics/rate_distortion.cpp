@@ -38,26 +38,26 @@ std::vector<Configuration> comparedConfigurations(const EncodeOptions& base)
 Result<Curve> measureCurve(
     const std::vector<std::uint8_t>& file, const DistanceMeter& meter, const Progress& progress)
 {
-	auto decoder = Decoder::open(file.data(), file.size());
+	auto decoder = Decoder::open(file.data(), file.size(), DecodeLimits::none());
 	if (!decoder.ok())
 		return decoder.status();
 	Curve curve;
 	curve.info = decoder->info();
-	// A level takes as long to measure as it has faces, and the samples on both surfaces.
-	double all = 0, done = 0;
-	for (const LevelInfo& level : curve.info.levels)
-		all += level.faces + double(meter.samples());
+	// A coarse level takes longer: its points are further from the surface, and the closest one is
+	// harder to find. This is what was measured, by the part of the levels that are done.
+	const auto evenly  = [](double part) { return part * (1.5 - 0.5 * part); };
+	const double share = 1 / double(curve.info.levels.size());
+	double done        = 0;
 	for (const LevelInfo& level : curve.info.levels) {
 		if (level.prefix > file.size() && !curve.levels.empty())
 			break;
 		if (const Status s = decoder->advance(); !s.ok())
 			return s;
-		const double share = (level.faces + double(meter.samples())) / all;
-		bool running       = true;
-		SurfaceDistance d  = meter.measure(decoder->mesh(), [&](double fraction) {
-            if (progress && running)
-                running = progress(done + share * fraction);
-        });
+		bool running      = true;
+		SurfaceDistance d = meter.measure(decoder->mesh(), [&](double fraction) {
+			if (progress && running)
+				running = progress(evenly(done + share * fraction));
+		});
 		if (!running)
 			return Status(StatusCode::Cancelled, "cancelled");
 		d.rms /= meter.diagonal();

@@ -89,7 +89,7 @@ struct Bench
 		const EncodedMesh tinyFile = encodeMesh("tetrahedron", tiny, EncodeOptions {});
 		row.info                   = file.info;
 		auto decodes               = [](const EncodedMesh& encoded) {
-            return decode(encoded.bytes.data(), encoded.bytes.size()).ok();
+            return decode(encoded.bytes.data(), encoded.bytes.size(), ofOwnFile()).ok();
 		};
 		row.decode = measureInChild(
 		    runs, [&] { (void)decodes(tinyFile); }, [&] { return decodes(file); });

@@ -76,8 +76,7 @@ void CodecOptions::addTo(CLI::App& command)
 	    .add_option(
 	        "--wgc", wgc,
 	        "Wavelet geometrical criterion, keeps sharp edges in coarse levels: off, on, or auto "
-	        "(size: both are tried and the smaller file is kept, in compact mode with --effort 3 "
-	        "only, else off; balanced: on; levels does without it)")
+	        "(both are tried for --optimize size, in compact mode with --effort 3 only; else off)")
 	    ->check(CLI::IsMember({"off", "on", "auto"}))
 	    ->capture_default_str()
 	    ->group(group);
@@ -194,6 +193,13 @@ EncodedMesh encodeMesh(
 	return std::move(encoded.value());
 }
 
+DecodeOptions ofOwnFile()
+{
+	DecodeOptions options;
+	options.limits = DecodeLimits::none();
+	return options;
+}
+
 Result<DecodedMesh>
 decodeBytes(const std::string& path, const Bytes& bytes, DecodeOptions options, double* seconds)
 {
@@ -203,6 +209,9 @@ decodeBytes(const std::string& path, const Bytes& bytes, DecodeOptions options, 
 	auto decoded = decode(bytes.data(), bytes.size(), options);
 	if (seconds)
 		*seconds = watch.seconds();
+	if (decoded.status().code == StatusCode::LimitExceeded)
+		throw Failure(
+		    messageOf(path, decoded.status()) + "; wmc decode has options to raise it (--max-...)");
 	if (!decoded.hasValue())
 		throw Failure(messageOf(path, decoded.status()));
 	return decoded;

@@ -50,6 +50,9 @@ EncodedMesh encodeMesh(
     const EncodeOptions& options,
     double* seconds = nullptr);
 
+/// For files made here, or whose mesh is at hand: no limits.
+DecodeOptions ofOwnFile();
+
 /// Decodes with a progress line. Throws Failure if there is no mesh at all.
 Result<DecodedMesh> decodeBytes(
     const std::string& path,

@@ -32,7 +32,7 @@ struct Encode
 		double seconds = 0, back = 0;
 		const EncodedMesh file = encodeMesh(in, mesh, codec.toEncodeOptions(), &seconds);
 		// Nothing is written that does not decode.
-		if (const auto decoded = decodeBytes(out, file.bytes, {}, &back); !decoded.ok())
+		if (const auto decoded = decodeBytes(out, file.bytes, ofOwnFile(), &back); !decoded.ok())
 			throw Failure(messageOf(out, decoded.status()));
 		OutputFile output(out);
 		output.write(file.bytes.data(), file.bytes.size());
@@ -53,23 +53,21 @@ struct Encode
 struct Decode
 {
 	std::string in, out;
-	int level                 = kFinestLevel;
-	std::uint64_t maxBytes    = ~std::uint64_t {0};
-	std::uint64_t maxVertices = DecodeLimits().maxVertices;
-	std::uint64_t maxFaces    = DecodeLimits().maxFaces;
-	bool json                 = false;
+	int level              = kFinestLevel;
+	std::uint64_t maxBytes = ~std::uint64_t {0};
+	DecodeLimits limits;
+	bool json = false;
 
 	int run() const
 	{
 		checkMeshFormat(out);
 		const Bytes bytes = readFile(in);
 		DecodeOptions options;
-		options.level              = level;
-		options.maxBytes           = maxBytes;
-		options.limits.maxVertices = maxVertices;
-		options.limits.maxFaces    = maxFaces;
-		double seconds             = 0;
-		const auto decoded         = decodeBytes(in, bytes, options, &seconds);
+		options.level      = level;
+		options.maxBytes   = maxBytes;
+		options.limits     = limits;
+		double seconds     = 0;
+		const auto decoded = decodeBytes(in, bytes, options, &seconds);
 		// A mesh that comes with any other complaint is not to be trusted.
 		if (!decoded.ok() && decoded.status().code != StatusCode::Truncated)
 			throw Failure(messageOf(in, decoded.status()));
@@ -141,6 +139,12 @@ struct Info
 	}
 };
 
+void addLimit(
+    CLI::App& command, const std::string& option, std::uint64_t& limit, const std::string& more)
+{
+	command.add_option(option, limit, "Refuse files that declare " + more)->capture_default_str();
+}
+
 void addJson(CLI::App& command, bool& json)
 {
 	command.add_flag("--json", json, "Print one JSON object on stdout and nothing else");
@@ -178,11 +182,14 @@ void addDecode(CLI::App& app, Command& chosen)
 	        "--max-bytes", c->maxBytes,
 	        "Decode as if the file ended after this many bytes (default: all of it)")
 	    ->check(CLI::NonNegativeNumber);
-	command->add_option("--max-vertices", c->maxVertices, "Refuse files that declare more vertices")
-	    ->capture_default_str();
-	command->add_option("--max-faces", c->maxFaces, "Refuse files that declare more faces")
-	    ->check(CLI::NonNegativeNumber)
-	    ->capture_default_str();
+	addLimit(*command, "--max-vertices", c->limits.maxVertices, "more vertices");
+	addLimit(*command, "--max-faces", c->limits.maxFaces, "more faces");
+	addLimit(
+	    *command, "--max-attribute-values", c->limits.maxAttributeValues,
+	    "more numbers in attributes");
+	addLimit(
+	    *command, "--max-level-share", c->limits.maxLevelShare,
+	    "more faces in all levels together, in multiples of the finest level's");
 	addJson(*command, c->json);
 	command->footer("A file that is cut off gives the mesh that its bytes still hold, and a "
 	                "warning. So does an\n"

@@ -4,6 +4,7 @@
 #include "failure.h"
 #include "man_page.h"
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -47,7 +48,8 @@ int run(int argc, char** argv)
 		       throw CLI::Success();
 	       },
 	       "Print the manual page")
-	    ->group(""); // for those who build packages
+	    ->trigger_on_parse() // before a command is asked for
+	    ->group("");         // for those who build packages
 	try {
 		app.parse(argc, argv);
 	}
@@ -64,6 +66,7 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+	std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow: write() fails, and we clean up
 	try {
 		return run(argc, argv);
 	}

@@ -113,7 +113,7 @@ bool same(const MeshData& a, const MeshData& b)
 /// Every level decodes, as declared, manifold, with the topology of all others.
 std::string checkLevels(const Bytes& file, MeshData& finest)
 {
-	auto decoder = Decoder::open(file.data(), file.size());
+	auto decoder = Decoder::open(file.data(), file.size(), DecodeLimits::none());
 	if (!decoder.ok())
 		return decoder.status().what;
 	const StreamInfo& info = decoder->info();
@@ -164,9 +164,9 @@ std::string checkPrefixes(const Bytes& file, const StreamInfo& info)
 		line.show(double(i) / double(info.levels.size()));
 		const std::string name     = "level " + std::to_string(i) + ": ";
 		const std::uint64_t prefix = info.levels[static_cast<std::size_t>(i)].prefix;
-		DecodeOptions options;
-		options.level    = i;
-		const auto whole = decode(file.data(), file.size(), options);
+		DecodeOptions options      = ofOwnFile();
+		options.level              = i;
+		const auto whole           = decode(file.data(), file.size(), options);
 		// In a buffer of its own, so that reading past it is not reading the rest of the file.
 		const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(prefix));
 		const auto part = decode(cut.data(), cut.size(), options);
@@ -248,7 +248,7 @@ struct Verify
 		DecodedMesh decoded;
 		Status status;
 		try {
-			auto result = decodeBytes(in, file, {}, &seconds);
+			auto result = decodeBytes(in, file, ofOwnFile(), &seconds);
 			status      = result.status();
 			decoded     = std::move(*result);
 		}

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "container/container.h"
 #include "finish/finish.h"
+#include "level_work.h"
 #include "multires/refine.h"
+#include "stage.h"
 #include "syntax/base_syntax.h"
 #include "syntax/connectivity_syntax.h"
 #include "syntax/detail_syntax.h"
@@ -29,6 +31,8 @@ struct Decoder::State
 	std::unique_ptr<AttributeReader> attributes; ///< if the file has any
 	std::optional<MeshData> finished; ///< level J with what follows it, as far as it came
 	Status stopped;                   ///< not ok: no further level can come
+	Progress progress;                ///< of the level being read
+	bool cancelled = false;
 
 	std::size_t offset = 0; ///< of the next chunk
 	Chunk chunk;            ///< the one being read
@@ -50,11 +54,17 @@ struct Decoder::State
 	Status readPrecise();
 	Status finish();
 	Status advance();
+	bool goesOn(double fraction);
+	Progress watched(double from);
 	Status ended(const char* where) const;
-	Status corrupt(const char* what) const;
+	Status corrupt(const std::string& what) const;
+	Status wrongSize(std::uint32_t found, const char* elements, std::uint32_t declared) const;
 };
 
 namespace {
+
+/// So many faces may be in any number of levels.
+constexpr std::uint64_t kFewFaces = 1000;
 
 std::string levelName(int level)
 {
@@ -78,13 +88,21 @@ Status Decoder::State::ended(const char* where) const
 	    size};
 }
 
-Status Decoder::State::corrupt(const char* what) const
+Status Decoder::State::corrupt(const std::string& what) const
 {
 	return {
 	    StatusCode::Corrupt,
 	    levelName(level + 1) + " " + what + " (chunk at offset " +
 	        std::to_string(std::size_t(chunk.payload - data)) + ")",
 	    std::uint64_t(chunk.payload - data)};
+}
+
+Status
+Decoder::State::wrongSize(std::uint32_t found, const char* elements, std::uint32_t declared) const
+{
+	return corrupt(
+	    "has " + std::to_string(found) + " " + elements + " but the head declares " +
+	    std::to_string(declared));
 }
 
 /// Finds the next chunk that must not be skipped, which must be of this type.
@@ -168,11 +186,13 @@ Status Decoder::State::readSplit()
 	ConnectivitySyntax<RangeDecoder>(coder, *connectivityModels, table, positions).code(refinement);
 	if (coder.exhausted())
 		return ended("the connectivity");
+	if (head.mode == Mode::Classic && !goesOn(kConnectivityWork))
+		return wavemesh::cancelled();
 	if (refinement.childVertices != target.vertices)
-		return corrupt("does not have the number of vertices that the head declares");
+		return wrongSize(refinement.childVertices, "vertices", target.vertices);
 	CornerTable child = refine(table, refinement);
 	if (child.faceCount() != target.faces)
-		return corrupt("does not have the number of faces that the head declares");
+		return wrongSize(child.faceCount(), "faces", target.faces);
 	Status status =
 	    head.mode == Mode::Classic ? readDetails(refinement) : readChildren(refinement, child);
 	if (status.ok() || status.code == StatusCode::Truncated) {
@@ -207,10 +227,17 @@ Status Decoder::State::readChildren(const Refinement& refinement, const CornerTa
 {
 	const Parents parents = parentsOf(table, refinement);
 	if (!compactModels)
-		compactModels = std::make_unique<CompactModels>();
+		compactModels = std::make_unique<CompactModels>(head.predictors);
 	positions.resize(child.vertexCount, {0, 0, 0});
-	PositionSyntax<RangeDecoder>(coder, *compactModels, child, head.lattice.bits, glue)
-	    .codeChildren(table, refinement, parents, row(level + 1).shift, positions);
+	withPositionSyntax<RangeDecoder>(
+	    head.predictors,
+	    [&](auto syntax) {
+		    syntax.watch(watched(kConnectivityWork));
+		    syntax.codeChildren(table, refinement, parents, row(level + 1).shift, positions);
+	    },
+	    coder, *compactModels, child, head.lattice.bits, glue);
+	if (cancelled)
+		return wavemesh::cancelled();
 	return coder.exhausted() ? ended("the positions") : Status();
 }
 
@@ -218,11 +245,17 @@ Status Decoder::State::readChildren(const Refinement& refinement, const CornerTa
 Status Decoder::State::readPrecise()
 {
 	if (!compactModels)
-		compactModels = std::make_unique<CompactModels>();
+		compactModels = std::make_unique<CompactModels>(head.predictors);
 	const int shift = row(level + 1).shift, bits = row(level).shift - shift;
-	const Index whole =
-	    PositionSyntax<RangeDecoder>(coder, *compactModels, table, head.lattice.bits, glue)
-	        .codeBits(shift, bits, positions, {});
+	const Index whole = withPositionSyntax<RangeDecoder>(
+	    head.predictors,
+	    [&](auto syntax) {
+		    syntax.watch(watched(0));
+		    return syntax.codeBits(shift, bits, positions, {});
+	    },
+	    coder, *compactModels, table, head.lattice.bits, glue);
+	if (cancelled)
+		return wavemesh::cancelled();
 	const Status cut = coder.exhausted() ? ended("the positions") : Status();
 	if (!cut.ok() && whole == 0) { // nothing new: the level before, as it was
 		for (LatticePoint& p : positions)
@@ -233,6 +266,19 @@ Status Decoder::State::readPrecise()
 	if (cut.ok() || cut.code == StatusCode::Truncated)
 		++level;
 	return cut;
+}
+
+/// Tells the progress of the level, and remembers the answer.
+bool Decoder::State::goesOn(double fraction)
+{
+	cancelled = progress && !progress(fraction);
+	return !cancelled;
+}
+
+/// The progress of the rest of a level, from `from` on.
+Progress Decoder::State::watched(double from)
+{
+	return [this, from](double fraction) { return goesOn(from + (1 - from) * fraction); };
 }
 
 Status Decoder::State::advance()
@@ -294,6 +340,43 @@ Status Decoder::State::openFeature(Feature feature)
 	return {};
 }
 
+namespace {
+
+Status overLimit(std::uint64_t count, const char* what, const char* name, std::uint64_t limit)
+{
+	return {
+	    StatusCode::LimitExceeded, "the file declares " + std::to_string(count) + " " + what +
+	                                   ", more than the limit of " + std::to_string(limit) + " (" +
+	                                   name + ")"};
+}
+
+/// Before memory or time is taken.
+Status checkLimits(const Head& head, const StreamInfo& info, const DecodeLimits& limits)
+{
+	const LevelRow& finest       = head.rows.back();
+	const std::uint32_t vertices = std::max(info.vertices, finest.vertices);
+	const std::uint32_t faces    = std::max(info.faces, finest.faces);
+	if (vertices > limits.maxVertices)
+		return overLimit(vertices, "vertices", "maxVertices", limits.maxVertices);
+	if (faces > limits.maxFaces)
+		return overLimit(faces, "faces", "maxFaces", limits.maxFaces);
+	const std::uint64_t values = info.features.attributeValues;
+	if (values > limits.maxAttributeValues)
+		return overLimit(
+		    values, "numbers in attributes", "maxAttributeValues", limits.maxAttributeValues);
+	// Levels that hardly grow would make decoding take many times what its mesh is worth.
+	std::uint64_t inLevels = 0;
+	for (const LevelRow& row : head.rows)
+		inLevels += row.faces;
+	const std::uint64_t share = inLevels / (std::uint64_t(finest.faces) + kFewFaces);
+	if (share > limits.maxLevelShare)
+		return overLimit(
+		    share, "times its faces in all levels together", "maxLevelShare", limits.maxLevelShare);
+	return {};
+}
+
+} // namespace
+
 Decoder::Decoder(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Decoder::Decoder(Decoder&&) noexcept            = default;
 Decoder& Decoder::operator=(Decoder&&) noexcept = default;
@@ -317,32 +400,20 @@ Decoder::open(const std::uint8_t* data, std::size_t size, const DecodeLimits& li
 	auto head       = readHead(data, size, end);
 	if (!head.ok())
 		return head.status();
-	state->data                  = data;
-	state->size                  = size;
-	state->head                  = std::move(*head);
-	state->info                  = describe(state->head, end);
-	state->offset                = end;
-	const LevelRow& finest       = state->head.rows.back();
-	const std::uint32_t vertices = std::max(state->info.vertices, finest.vertices);
-	const std::uint32_t faces    = std::max(state->info.faces, finest.faces);
-	if (vertices > limits.maxVertices || faces > limits.maxFaces)
-		return Status(
-		    StatusCode::LimitExceeded,
-		    "the file declares " + std::to_string(vertices) + " vertices and " +
-		        std::to_string(faces) + " faces, more than the limit of " +
-		        std::to_string(limits.maxVertices) + " and " + std::to_string(limits.maxFaces));
-	if (state->info.features.attributeValues > limits.maxAttributeValues)
-		return Status(
-		    StatusCode::LimitExceeded, "the file declares " +
-		                                   std::to_string(state->info.features.attributeValues) +
-		                                   " numbers in attributes, more than the limit of " +
-		                                   std::to_string(limits.maxAttributeValues));
+	state->data   = data;
+	state->size   = size;
+	state->head   = std::move(*head);
+	state->info   = describe(state->head, end);
+	state->offset = end;
+	if (Status over = checkLimits(state->head, state->info, limits); !over.ok())
+		return over;
 	return Decoder(std::move(state));
 }
 
-Status Decoder::advance()
+Status Decoder::advance(const Progress& progress)
 {
-	State& s = *state_;
+	State& s   = *state_;
+	s.progress = progress;
 	Status status;
 	try {
 		status = s.advance();
@@ -352,6 +423,7 @@ Status Decoder::advance()
 	catch (const std::bad_alloc&) {
 		status = {StatusCode::OutOfMemory, "not enough memory for " + levelName(s.level + 1)};
 	}
+	s.progress = {};
 	if (!status.ok() && status.code != StatusCode::InvalidArgument)
 		s.stopped = status;
 	return status;
@@ -400,20 +472,26 @@ Result<DecodedMesh> decode(const std::uint8_t* data, std::size_t size, const Dec
 	const StreamInfo& info = decoder->info();
 	const int finest       = info.finestLevel();
 	const int target       = options.level < 0 ? finest : std::min(options.level, finest);
+	std::vector<double> work {0}; // of the levels below
+	for (std::size_t l = 0; l <= std::size_t(target); ++l)
+		work.push_back(
+		    work.back() +
+		    levelWork(info.mode, info.levels[l], l == 0 ? nullptr : &info.levels[l - 1]));
+	const double all = work.back() + (target == finest ? featureWork(info.features) : 0);
 	Status status;
 	while (decoder->level() < target && status.ok()) {
-		const double done = decoder->level() < 0
-		                        ? 0
-		                        : double(info.levels[std::size_t(decoder->level())].vertices) /
-		                              info.levels.back().vertices;
-		if (options.progress && !options.progress(done))
-			return Status(StatusCode::Cancelled, "cancelled");
-		status = decoder->advance();
+		const std::size_t next = std::size_t(decoder->level() + 1);
+		const Stage stage(options.progress, work[next] / all, work[next + 1] / all);
+		if (!stage(0))
+			return cancelled();
+		status = decoder->advance(stage);
 	}
 	if (!status.ok() && (status.code != StatusCode::Truncated || decoder->level() < 0))
 		return status;
 	try {
 		DecodedMesh out {decoder->mesh(), decoder->level(), info};
+		if (options.progress && !options.progress(1))
+			return cancelled();
 		return Result<DecodedMesh>(std::move(out), status);
 	}
 	catch (const std::bad_alloc&) {

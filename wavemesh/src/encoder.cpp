@@ -6,6 +6,7 @@
 
 #include <wavemesh/codec.h>
 
+#include <algorithm>
 #include <limits>
 #include <new>
 #include <optional>
@@ -60,13 +61,26 @@ double cellErrorsFor(Optimize optimize, bool repeats)
 	return 0;
 }
 
+/// Parts of the work by vertex, about 0.1 microseconds: measured as in level_work.h.
+struct EncodingWork
+{
+	double prepare, coarsen;
+	double levels, finish; ///< each time that it is tried
+	int tries, passes;
+
+	double pass() const { return coarsen + tries * (levels + finish); }
+	double all() const { return prepare + passes * pass(); }
+};
+
 /// Cuts, and rounds to the lattice.
 Result<QuantisedMesh> prepare(const MeshData& mesh, const EncodeOptions& options)
 {
 	constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max() / 3;
-	if (mesh.positions.size() > kMost || mesh.triangles.size() > kMost)
+	if (const std::size_t n = std::max(mesh.positions.size(), mesh.triangles.size()); n > kMost)
 		return Status(
-		    StatusCode::LimitExceeded, "the mesh has more than 715 million vertices or faces");
+		    StatusCode::LimitExceeded,
+		    "the mesh has " + std::to_string(n) + " vertices or faces, more than the " +
+		        std::to_string(kMost) + " that a .wmc can hold: split it");
 	const auto& finite = options.exact ? finitePositions(mesh.positions) : mesh.positions;
 	const auto lattice = makeLattice(finite, options.bits, options.step);
 	if (!lattice.ok())
@@ -95,29 +109,30 @@ public:
 
 	Result<EncodedMesh> run()
 	{
-		const bool classic = options_.mode == Mode::Classic || options_.effort == 1;
-		// Balanced wants sharp edges kept in the one step that is left to connectivity; with Levels
-		// there is none.
-		const bool both = options_.wgc == Wgc::Auto && options_.optimize == Optimize::Size &&
-		                  (options_.mode == Mode::Classic || options_.effort == 3);
-		const bool preferred = options_.wgc == Wgc::On || (options_.wgc == Wgc::Auto &&
-		                                                   options_.optimize == Optimize::Balanced);
-		const Stage whole(options_.progress, 0, 1);
-		for (const bool wgc : {false, true}) {
-			if (!both && wgc != preferred)
-				continue;
-			const Stage stage = both ? whole.part(wgc ? 0.5 : 0, wgc ? 1 : 0.5) : whole;
+		const bool classic                 = options_.mode == Mode::Classic || options_.effort == 1;
+		const std::vector<Coarsening> ways = coarsenings();
+		const EncodingWork work            = workOf(classic, int(ways.size()));
+		double done                        = work.prepare;
+		for (const Coarsening& way : ways) {
+			const bool wgc = way.wgc;
+			const Stage stage(
+			    options_.progress, done / work.all(), (done + work.pass()) / work.all());
+			done += work.pass();
+			if (!stage(0))
+				return cancelled();
+			const double coarsened = work.coarsen / work.pass();
 			const GeometricalCriterion criterion {
 			    wgc, options_.wgcSharpness, options_.wgcDeviation};
 			std::optional<Levels> levels =
-			    makeLevels(mesh_, criterion, steeringFor(options_.optimize), stage.part(0, 0.4));
+			    makeLevels(mesh_, criterion, steeringFor(way.aim), stage.part(0, coarsened));
 			if (!levels)
 				return cancelled();
 			std::optional<AttributeLevels> attributes;
 			if (featuresFor(options_, original_, mesh_.cut) & (1 << kAttributes))
 				attributes.emplace(original_, mesh_, *levels);
-			if (!(classic ? tryClassic(*levels, attributes, wgc, stage.part(0.4, 1))
-			              : tryCompact(*levels, attributes, wgc, stage.part(0.4, 1))))
+			const Stage writing = stage.part(coarsened, 1);
+			if (!(classic ? tryClassic(*levels, attributes, wgc, writing)
+			              : tryCompact(*levels, attributes, wgc, writing)))
 				return cancelled();
 		}
 		return std::move(best_);
@@ -125,6 +140,51 @@ public:
 
 private:
 	using Attributes = std::optional<AttributeLevels>;
+
+	static constexpr std::size_t kSmall = 4096; ///< vertices; their time is nothing
+	bool isSmall() const { return mesh_.positions.size() < kSmall; }
+	static constexpr std::size_t kLarge = 16384; ///< vertices; here speed counts
+	bool isLarge() const { return mesh_.positions.size() >= kLarge; }
+
+	/// One way to make levels.
+	struct Coarsening
+	{
+		Optimize aim;
+		bool wgc;
+	};
+
+	std::vector<Coarsening> coarsenings() const
+	{
+		const Optimize aim = options_.optimize;
+		if (options_.wgc != Wgc::Auto)
+			return {{aim, options_.wgc == Wgc::On}};
+		std::vector<Coarsening> all {{aim, false}};
+		if (aim == Optimize::Size && (options_.mode == Mode::Classic || options_.effort == 3))
+			all.push_back({aim, true});
+		if (all.size() > 1 && options_.mode == Mode::Compact && isSmall())
+			all.push_back({Optimize::Balanced, false});
+		return all;
+	}
+
+	/// The levels are not known yet: what they usually are.
+	EncodingWork workOf(bool classic, int passes) const
+	{
+		EncodingWork work {};
+		work.prepare = 1;
+		work.coarsen = options_.optimize == Optimize::Size ? 4.5 : 12;
+		work.levels  = !classic ? 27 : options_.effort == 1 ? 3.5 : 7;
+		work.finish  = 0.5 + 7 * options_.keepOrder + 7 * options_.exact;
+		work.tries   = classic ? 1 : int(plans().size());
+		work.passes  = passes;
+		return work;
+	}
+
+	/// The levels' part in the work of one try.
+	double written(bool classic) const
+	{
+		const EncodingWork work = workOf(classic, 1);
+		return work.levels / (work.levels + work.finish);
+	}
 
 	Head headOf(const Levels& levels, Mode mode, bool wgc) const
 	{
@@ -144,44 +204,72 @@ private:
 		head.lifting = options_.mode == Mode::Classic ? options_.lifting : kLiftingOff;
 		std::vector<std::uint8_t> chunks;
 		auto writer = writerFor(attributes);
-		if (!writeClassic(levels, writer.get(), head, chunks, stage))
+		if (!writeClassic(levels, writer.get(), head, chunks, stage.part(0, written(true))))
 			return false;
 		keepIfSmaller(levels, writer.get(), head, chunks);
-		return true;
+		return stage(1);
 	}
 
 	bool
 	tryCompact(const Levels& levels, const Attributes& attributes, bool wgc, const Stage& stage)
 	{
-		const std::vector<ScheduleOptions> tries = schedulesFor();
+		const std::vector<Plan> tries = plans();
 		for (std::size_t i = 0; i < tries.size(); ++i) {
-			const double part = 1.0 / double(tries.size());
-			Head head         = headOf(levels, Mode::Compact, wgc);
+			const Stage part =
+			    stage.part(double(i) / double(tries.size()), double(i + 1) / double(tries.size()));
+			Head head       = headOf(levels, Mode::Compact, wgc);
+			head.predictors = tries[i].predictors;
 			std::vector<std::uint8_t> chunks;
-			const Schedule schedule = makeSchedule(levels, mesh_.lattice.bits, tries[i]);
+			const Schedule schedule = makeSchedule(levels, mesh_.lattice.bits, tries[i].schedule);
 			auto writer             = writerFor(attributes);
 			if (!writeCompact(
-			        levels, schedule, writer.get(), head, chunks,
-			        stage.part(double(i) * part, double(i + 1) * part)))
+			        levels, schedule, writer.get(), head, chunks, part.part(0, written(false))))
 				return false;
 			keepIfSmaller(levels, writer.get(), head, chunks);
+			if (!part(1))
+				return false;
 		}
 		return true;
 	}
 
-	std::vector<ScheduleOptions> schedulesFor() const
+	/// One way to code positions.
+	struct Plan
 	{
-		constexpr int kAll  = ScheduleOptions::kAll;
-		const double errors = cellErrorsFor(options_.optimize, repeats_);
-		const int last      = repeats_ ? kAll : 2;
-		if (options_.effort < 3)
-			return {{8, 2, last, errors}};
-		return {
-		    {8, 1, 1, errors},
-		    {8, 1, 2, errors},
-		    {8, 1, kAll, errors},
-		    {4, 1, last, errors},
-		    {12, 1, last, errors}};
+		ScheduleOptions schedule;
+		PredictorSet predictors;
+	};
+
+	std::vector<Plan> plans() const
+	{
+		constexpr int kAll     = ScheduleOptions::kAll;
+		const double smooth    = cellErrorsFor(options_.optimize, false);
+		const double repeating = cellErrorsFor(options_.optimize, true);
+		const PredictorSet all = PredictorSet::All, repeats = PredictorSet::Repeats;
+		if (options_.effort < 3) {
+			if (isSmall())
+				return {{{8, 1, 1, smooth}, all}, {{8, 1, kAll, repeating}, repeats}};
+			if (repeats_)
+				return {{{8, 2, kAll, repeating}, repeats}};
+			return {{{8, 2, 2, smooth}, isLarge() ? PredictorSet::Few : all}};
+		}
+		std::vector<Plan> ways;
+		const auto add = [&ways](PredictorSet set, std::initializer_list<ScheduleOptions> some) {
+			for (const ScheduleOptions& schedule : some)
+				ways.push_back({schedule, set});
+		};
+		if (isSmall() || !repeats_)
+			add(all, {{8, 1, 1, smooth},
+			          {8, 1, 2, smooth},
+			          {8, 1, kAll, smooth},
+			          {4, 1, 2, smooth},
+			          {12, 1, 2, smooth}});
+		if (isSmall() || repeats_)
+			add(repeats, {{8, 1, 1, smooth},
+			              {8, 1, kAll, smooth},
+			              {4, 1, kAll, repeating},
+			              {12, 1, kAll, repeating},
+			              {8, 1, kAll, cellErrorsFor(Optimize::Balanced, true)}});
+		return ways;
 	}
 
 	static std::unique_ptr<AttributeWriter> writerFor(const Attributes& attributes)

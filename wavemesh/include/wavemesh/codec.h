@@ -32,8 +32,8 @@ enum class Mode : std::uint8_t {
 enum class Wgc : std::uint8_t {
 	Off  = 0, ///< geometry-blind coarsening
 	On   = 1,
-	Auto = 2, ///< Size: both are encoded and the smaller file is kept (Compact: with effort 3 only,
-	          ///< else Off). Balanced: On
+	Auto = 2, ///< Optimize::Size: both are encoded and the smaller file is kept (Compact: with
+	          ///< effort 3 only); else Off
 };
 
 /// What the choice of the vertices that each step removes is good for. Sizes and errors of all
@@ -186,12 +186,24 @@ struct EncodedMesh
 /// Cost linear in the mesh.
 Result<EncodedMesh> encode(const MeshData& mesh, const EncodeOptions& options = {});
 
-/// What a decoder may spend. A file that declares more is refused before the memory is taken.
+/// What a decoder may spend. A file that declares more is refused before the memory is taken, with
+/// LimitExceeded and the name of the limit.
 struct DecodeLimits
 {
 	std::uint64_t maxVertices        = 200'000'000;
 	std::uint64_t maxFaces           = 400'000'000;
 	std::uint64_t maxAttributeValues = 2'000'000'000; ///< numbers in all attributes together
+	/// Faces of all levels together, in multiples of the finest level's (and a thousand more): how
+	/// much longer than its mesh is worth a file may take. The encoder's stay below, since each
+	/// split adds a fifteenth at least, but for the last few dozen vertices.
+	std::uint64_t maxLevelShare = 400;
+
+	/// As much as the format can hold: for a file that one has the mesh of.
+	static DecodeLimits none()
+	{
+		constexpr std::uint64_t kAny = ~std::uint64_t {0};
+		return {kAny, kAny, kAny, kAny};
+	}
 };
 
 constexpr int kFinestLevel = -1;
@@ -250,8 +262,10 @@ public:
 	/// Level of mesh(), or -1 before the first advance().
 	int level() const;
 	/// Decodes the next level. After an error the decoder stays at the level it had; after
-	/// Truncated it may have moved to a partly predicted level and does not advance any more.
-	Status advance();
+	/// Truncated it may have moved to a partly predicted level and does not advance any more. Nor
+	/// does it after Cancelled.
+	/// @param progress  of this level
+	Status advance(const Progress& progress = {});
 	/// The mesh of the current level. @pre level() >= 0
 	MeshData mesh() const;
 

@@ -49,9 +49,10 @@ bool visitFields(Io& io, Head& h)
 		wide   = extent / steps != h.lattice.step;
 		for (const double x : h.lattice.origin)
 			wide = wide || double(float(x)) != x;
+		const int way =
+		    h.mode == Mode::Classic ? h.lifting - kLiftingOff : static_cast<int>(h.predictors);
 		flags = std::uint8_t(
-		    int(h.mode) | (h.wgc ? 8 : 0) | (wide ? 16 : 0) | ((h.lifting + 1) << 5) |
-		    (h.rich ? 128 : 0));
+		    int(h.mode) | (h.wgc ? 8 : 0) | (wide ? 16 : 0) | (way << 5) | (h.rich ? 128 : 0));
 	}
 	io.fixed(flags);
 	io.fixed(h.features);
@@ -61,12 +62,16 @@ bool visitFields(Io& io, Head& h)
 		h.mode         = Mode(flags & 7);
 		h.wgc          = (flags & 8) != 0;
 		wide           = (flags & 16) != 0;
-		h.lifting      = ((flags >> 5) & 3) - 1;
+		const int way  = (flags >> 5) & 3;
 		h.rich         = (flags & 128) != 0;
 		h.lattice.bits = bits;
 		if (bits < 1 || bits > kMaxBits || h.mode > Mode::Compact ||
-		    (h.mode == Mode::Compact && h.lifting != kLiftingOff))
+		    (h.mode == Mode::Compact && way > int(PredictorSet::Repeats)))
 			return false;
+		if (h.mode == Mode::Classic)
+			h.lifting = way + kLiftingOff;
+		else
+			h.predictors = PredictorSet(way);
 	}
 	for (double& x : h.lattice.origin)
 		wide ? io.real64(x) : io.real32(x);

@@ -6,6 +6,7 @@
 
 #include "attributes/channel.h"
 #include "mesh/quantization.h"
+#include "predict/predictor_set.h"
 
 #include <wavemesh/codec.h>
 
@@ -44,12 +45,13 @@ struct LevelRow
 
 struct Head
 {
-	std::uint8_t major = kVersionMajor;
-	std::uint8_t minor = kVersionMinor;
-	Mode mode          = Mode::Classic;
-	int lifting        = kLiftingOff;
-	bool wgc           = false;
-	bool rich          = false; ///< are connectivity's contexts the rich ones?
+	std::uint8_t major      = kVersionMajor;
+	std::uint8_t minor      = kVersionMinor;
+	Mode mode               = Mode::Classic;
+	int lifting             = kLiftingOff;       ///< classic
+	PredictorSet predictors = PredictorSet::Few; ///< compact
+	bool wgc                = false;
+	bool rich               = false; ///< are connectivity's contexts the rich ones?
 	Lattice lattice;
 	std::uint32_t digest   = 0; ///< digestOf() the finest level
 	std::uint8_t features  = 0; ///< bit i: the file has feature i

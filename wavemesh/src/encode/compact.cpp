@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "encode/compact.h"
 
+#include "level_work.h"
 #include "syntax/base_syntax.h"
 #include "syntax/connectivity_syntax.h"
 #include "syntax/position_syntax.h"
@@ -53,6 +54,28 @@ std::uint64_t squaredErrors(
 	return sum / 256;
 }
 
+/// By level: the work up to its end, of 1 in all.
+std::vector<double> workOf(const Levels& levels, const Schedule& schedule, int latticeBits)
+{
+	LevelInfo level;
+	level.vertices = levels.table(0).vertexCount;
+	level.bits     = latticeBits - schedule.baseShift;
+	std::vector<double> work {levelWork(Mode::Compact, level, nullptr)};
+	std::size_t split = 0;
+	for (const ScheduleStep& step : schedule.steps) {
+		const LevelInfo below = level;
+		level.kind            = step.kind;
+		level.bits += step.bits;
+		if (step.kind == LevelKind::Split)
+			level.vertices = levels.table(++split).vertexCount;
+		work.push_back(work.back() + levelWork(Mode::Compact, level, &below));
+	}
+	const double all = work.back();
+	for (double& w : work)
+		w = all > 0 ? w / all : 1;
+	return work;
+}
+
 } // namespace
 
 bool writeCompact(
@@ -72,9 +95,10 @@ bool writeCompact(
 
 	LevelWriter writer(head, chunks);
 	ConnectivityModels connectivityModels(head.rich ? Contexts::Rich : Contexts::Fast);
-	const auto models = std::make_unique<CompactModels>();
-	std::size_t split = 0; // levels of connectivity so far, less the base
-	int shift         = schedule.baseShift;
+	const auto models              = std::make_unique<CompactModels>(head.predictors);
+	const std::vector<double> work = workOf(levels, schedule, bits);
+	std::size_t split              = 0; // levels of connectivity so far, less the base
+	int shift                      = schedule.baseShift;
 	std::vector<LatticePoint> cells;
 	cells.reserve(truth.size());
 	const auto endLevel = [&](LevelKind kind, std::size_t step) {
@@ -102,34 +126,49 @@ bool writeCompact(
 	endLevel(LevelKind::Base, 0);
 	for (std::size_t i = 0; i < schedule.steps.size(); ++i) {
 		const ScheduleStep& step = schedule.steps[i];
+		const Stage level        = stage.part(work[i], work[i + 1]);
+		const Stage positions =
+		    level.part(step.kind == LevelKind::Split ? kConnectivityWork : 0, 1);
+		bool running           = true;
+		const Progress watched = [&](double done) { return running = positions(done); };
 		if (step.kind == LevelKind::Split) {
-			const ReplayedLevel& level = levels.replay.levels[split];
-			Refinement refinement      = level.refinement;
-			ConnectivitySyntax<RangeEncoder>(
-			    writer.coder(), connectivityModels, level.parent, cells)
+			const CornerTable& parent = levels.table(split);
+			Refinement refinement     = levels.replay.levels[split].refinement;
+			ConnectivitySyntax<RangeEncoder>(writer.coder(), connectivityModels, parent, cells)
 			    .code(refinement);
 			writer.connectivityEnds();
 			const CornerTable& child = levels.table(++split);
 			appendCells(truth, cells.size(), child.vertexCount, shift, cells);
-			PositionSyntax<RangeEncoder>(writer.coder(), *models, child, bits, levels.glue)
-			    .codeChildren(level.parent, refinement, parents[split - 1], shift, cells);
+			withPositionSyntax<RangeEncoder>(
+			    head.predictors,
+			    [&](auto syntax) {
+				    syntax.watch(watched);
+				    syntax.codeChildren(parent, refinement, parents[split - 1], shift, cells);
+			    },
+			    writer.coder(), *models, child, bits, levels.glue);
 			writer.attributesBegin();
 			if (attributes)
 				attributes->split(
-				    writer.coder(), split, level.parent, child, refinement, parents[split - 1]);
+				    writer.coder(), split, parent, child, refinement, parents[split - 1]);
 		}
 		else {
 			shift -= step.bits;
 			std::vector<LatticePoint> finer;
 			finer.reserve(cells.size());
 			appendCells(truth, 0, cells.size(), shift, finer);
-			PositionSyntax<RangeEncoder>(
-			    writer.coder(), *models, levels.table(split), bits, levels.glue)
-			    .codeBits(shift, step.bits, cells, finer);
+			withPositionSyntax<RangeEncoder>(
+			    head.predictors,
+			    [&](auto syntax) {
+				    syntax.watch(watched);
+				    syntax.codeBits(shift, step.bits, cells, finer);
+			    },
+			    writer.coder(), *models, levels.table(split), bits, levels.glue);
 			writer.attributesBegin();
 		}
+		if (!running)
+			return false;
 		endLevel(step.kind, i + 1);
-		if (!stage(double(i + 1) / double(schedule.steps.size())))
+		if (!level(1))
 			return false;
 	}
 	return true;

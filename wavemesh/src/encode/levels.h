@@ -4,11 +4,11 @@
 /// all of it numbered as the decoder will.
 #pragma once
 
-#include "encode/stage.h"
 #include "mesh/glue.h"
 #include "mesh/manifold_cut.h"
 #include "mesh/quantization.h"
 #include "multires/hierarchy.h"
+#include "stage.h"
 
 #include <optional>
 

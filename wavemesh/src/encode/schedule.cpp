@@ -5,6 +5,7 @@
 #include "mesh/integer_math.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wavemesh {
 namespace {
@@ -27,6 +28,43 @@ int shiftFor(const CornerTable& table, const std::vector<LatticePoint>& position
 {
 	const std::uint64_t cell = meanEdge(table, positions) * std::uint64_t(sixteenths) / 256;
 	return cell == 0 ? 0 : bitLength(cell) - 1;
+}
+
+/// Share of the inner edges whose two faces make a parallelogram, up to rounding.
+double closedParallelograms(const CornerTable& table, const std::vector<LatticePoint>& positions)
+{
+	std::uint64_t closed = 0, count = 0;
+	for (Index c = 0; c < table.cornerCount(); ++c) {
+		const Index d = table.opposite[c];
+		if (d == kNone || d < c)
+			continue;
+		const LatticePoint &a = positions[table.vertex[nextCorner(c)]],
+		                   &b = positions[table.vertex[prevCorner(c)]],
+		                   &p = positions[table.vertex[c]], &q = positions[table.vertex[d]];
+		bool closes = true;
+		for (std::size_t k = 0; k < 3; ++k)
+			closes = closes && std::abs((a[k] - p[k]) + (b[k] - q[k])) <= 1;
+		closed += closes;
+		++count;
+	}
+	return count == 0 ? 0 : double(closed) / double(count);
+}
+
+/// How many different values the coordinates have, as a share of how many random ones would.
+double differentValues(const std::vector<LatticePoint>& positions)
+{
+	double values = 0, expected = 0;
+	std::vector<std::int32_t> axis(positions.size());
+	for (std::size_t k = 0; k < 3 && !positions.empty(); ++k) {
+		std::transform(
+		    positions.begin(), positions.end(), axis.begin(),
+		    [k](const LatticePoint& p) { return p[k]; });
+		std::sort(axis.begin(), axis.end());
+		const double range = double(axis.back()) - axis.front() + 1;
+		values += double(std::unique(axis.begin(), axis.end()) - axis.begin());
+		expected += range * (1 - std::exp(-double(positions.size()) / range));
+	}
+	return positions.empty() ? 1 : values / expected;
 }
 
 } // namespace
@@ -67,21 +105,9 @@ Schedule makeSchedule(const Levels& levels, int latticeBits, const ScheduleOptio
 
 bool repeatsItself(const CornerTable& table, const std::vector<LatticePoint>& positions)
 {
-	std::uint64_t closed = 0, count = 0;
-	for (Index c = 0; c < table.cornerCount(); ++c) {
-		const Index d = table.opposite[c];
-		if (d == kNone || d < c)
-			continue;
-		const LatticePoint &a = positions[table.vertex[nextCorner(c)]],
-		                   &b = positions[table.vertex[prevCorner(c)]],
-		                   &p = positions[table.vertex[c]], &q = positions[table.vertex[d]];
-		bool closes = true;
-		for (std::size_t k = 0; k < 3; ++k)
-			closes = closes && std::abs((a[k] - p[k]) + (b[k] - q[k])) <= 1;
-		closed += closes;
-		++count;
-	}
-	return 4 * closed > count;
+	// By chance edges close to parallelograms the more rarely the longer they are.
+	return closedParallelograms(table, positions) * double(meanEdge(table, positions)) / 16 > 2 ||
+	       differentValues(positions) < 0.75;
 }
 
 } // namespace wavemesh

@@ -42,8 +42,9 @@ struct Schedule
 
 Schedule makeSchedule(const Levels& levels, int latticeBits, const ScheduleOptions& options);
 
-/// Do the mesh's coordinates repeat, so that ScheduleOptions::kAll gives the smaller file? A guess
-/// from how often neighbouring faces close to parallelograms.
+/// Do the mesh's coordinates repeat, as on CAD and scan lattices, so that PredictorSet::Repeats and
+/// ScheduleOptions::kAll give the smaller file? A guess, from how often neighbouring faces close to
+/// parallelograms for their size, and from how few different values the coordinates have.
 bool repeatsItself(const CornerTable& table, const std::vector<LatticePoint>& positions);
 
 } // namespace wavemesh

@@ -51,10 +51,12 @@ class MixedValue
 {
 public:
 	static constexpr std::size_t kMaxOpinions = kMostInputs - 1;
-	static constexpr std::size_t kFewOpinions = 8;
+	static constexpr std::size_t kSomeOpinions = 8;
+	static constexpr std::size_t kFewOpinions = 5;
 	static constexpr std::size_t kContexts    = 12;
 
-	MixedValue();
+	/// @param firstWeight  of every opinion, 1/65536
+	explicit MixedValue(std::int32_t firstWeight);
 
 	/// What predictor i says of the next value.
 	///
@@ -129,9 +131,9 @@ private:
 	static constexpr std::size_t kWithin = 16;
 	static constexpr std::size_t kNodes  = 21;
 	static constexpr std::size_t kSlots  = 33; ///< of the final stage: odds in steps of 1/2
-	/// With few opinions there is no place for that of the counts.
+	/// Counts have a place behind the most opinions only; few are filled up with nothing.
 	template <std::size_t N>
-	static constexpr std::size_t kInputs = N == kMaxOpinions ? N + 1 : N;
+	static constexpr std::size_t kInputs = N == kMaxOpinions ? N + 1 : kSomeOpinions;
 
 	struct Range
 	{
@@ -261,15 +263,15 @@ private:
 
 	std::array<std::int32_t, kMaxOpinions> low_, high_; ///< mass below the ends of the range
 	std::uint32_t countLow_ = 0, countHigh_ = 0;        ///< the same of the counts
-	MixInputs input_;                                   ///< the last ones from the counts
+	MixInputs input_ {};                                   ///< the last ones from the counts
 	std::array<std::vector<MixWeights>, 3> sets_;       ///< by kind of question and context
 	std::vector<std::int32_t> refined_; ///< by kind and odds, probability in 22 bits
 };
 
-inline MixedValue::MixedValue()
+inline MixedValue::MixedValue(std::int32_t firstWeight)
 {
 	MixWeights first;
-	first.of.fill(65536 * 3 / 2 / kMostInputs);
+	first.of.fill(firstWeight);
 	for (auto& sets : sets_)
 		sets.assign(kNodes * kContexts, first);
 	refined_.resize(kNodes * kSlots);

@@ -87,20 +87,10 @@ namespace {
 std::vector<Index>
 matchFaces(const CornerTable& cut, const CornerTable& finest, const std::vector<Index>& source)
 {
-	const std::vector<Index> first = firstCorners(cut), valence = valences(cut);
+	const std::vector<Index> corners = matchCorners(finest, cut, source);
 	std::vector<Index> match(finest.faceCount());
-	for (Index f = 0; f < finest.faceCount(); ++f) {
-		// From the corner with the smallest fan, so that hubs cost nothing.
-		Index c = 3 * f;
-		for (const Index other : {3 * f + 1, 3 * f + 2})
-			if (valence[source[finest.vertex[other]]] < valence[source[finest.vertex[c]]])
-				c = other;
-		const Index to = source[finest.vertex[nextCorner(c)]];
-		Index mine     = first[source[finest.vertex[c]]];
-		while (cut.vertex[nextCorner(mine)] != to)
-			mine = cut.swingLeft(mine);
-		match[f] = mine / 3;
-	}
+	for (Index f = 0; f < finest.faceCount(); ++f)
+		match[f] = corners[3 * f] / 3;
 	return match;
 }
 

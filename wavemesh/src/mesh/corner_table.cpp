@@ -119,6 +119,28 @@ Status checkFans(const CornerTable& t, const VertexFans& fans)
 
 } // namespace
 
+std::vector<Index>
+matchCorners(const CornerTable& coded, const CornerTable& own, const std::vector<Index>& source)
+{
+	const std::vector<Index> first = firstCorners(own), valence = valences(own);
+	std::vector<Index> match(coded.cornerCount());
+	for (Index f = 0; f < coded.faceCount(); ++f) {
+		// From the corner with the smallest fan.
+		Index c = 3 * f;
+		for (const Index other : {3 * f + 1, 3 * f + 2})
+			if (valence[source[coded.vertex[other]]] < valence[source[coded.vertex[c]]])
+				c = other;
+		const Index to = source[coded.vertex[nextCorner(c)]];
+		Index mine     = first[source[coded.vertex[c]]];
+		while (own.vertex[nextCorner(mine)] != to)
+			mine = own.swingLeft(mine);
+		match[c]             = mine;
+		match[nextCorner(c)] = nextCorner(mine);
+		match[prevCorner(c)] = prevCorner(mine);
+	}
+	return match;
+}
+
 Result<CornerTable>
 buildCornerTable(const std::vector<std::array<std::uint32_t, 3>>& triangles, Index vertexCount)
 {

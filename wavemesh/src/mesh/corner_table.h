@@ -74,6 +74,13 @@ std::vector<Index> firstCorners(const CornerTable& table);
 /// Number of edges at each vertex. #V. Linear.
 std::vector<Index> valences(const CornerTable& table);
 
+/// For each corner of `coded` the corner of `own` that is the same. #corners. About linear: hubs
+/// cost nothing.
+/// @param source  for each vertex of `coded` that of `own`, which has the same faces in another
+///                order
+std::vector<Index>
+matchCorners(const CornerTable& coded, const CornerTable& own, const std::vector<Index>& source);
+
 /// Adjacency of a triangle list.
 ///
 /// @return Unsupported, naming edge or vertex, for non-manifold edges or vertices, inconsistent

@@ -8,13 +8,28 @@
 namespace wavemesh {
 namespace {
 
-/// Nearest 32-bit float at or below x (side < 0), or at or above.
+/// Nearest 32-bit float at or below x (side < 0), or at or above; infinite beyond the largest.
 double roundedToFloat(double x, int side)
 {
+	constexpr double kInfinity = std::numeric_limits<double>::infinity();
+	if (std::abs(x) > double(std::numeric_limits<float>::max()))
+		return side * kInfinity;
 	const float f = static_cast<float>(x);
 	if (side < 0 ? double(f) > x : double(f) < x)
 		return double(std::nextafter(f, float(side) * std::numeric_limits<float>::infinity()));
 	return double(f);
+}
+
+/// The largest coordinate there is.
+double farCorner(const Lattice& lattice)
+{
+	const double extent = lattice.step * double((1 << lattice.bits) - 1);
+	return *std::max_element(lattice.origin.begin(), lattice.origin.end()) + extent;
+}
+
+Status tooLarge()
+{
+	return {StatusCode::InvalidArgument, "the bounding box is too large for a double"};
 }
 
 } // namespace
@@ -40,7 +55,7 @@ makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, doubl
 		}
 	const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
 	if (!std::isfinite(extent))
-		return Status(StatusCode::InvalidArgument, "the bounding box is too large for a double");
+		return tooLarge();
 
 	Lattice lattice;
 	lattice.origin = low;
@@ -54,6 +69,9 @@ makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, doubl
 		lattice.bits = 1;
 		while (double((1 << lattice.bits) - 1) < steps)
 			++lattice.bits;
+		for (const double x : low)
+			if (!std::isfinite(x + step * steps))
+				return tooLarge();
 		return lattice;
 	}
 	lattice.bits       = bits;
@@ -67,7 +85,7 @@ makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, doubl
 		wide     = std::max(wide, high[k] - start[k]);
 	}
 	wide = roundedToFloat(wide, +1);
-	if (wide > 0 && wide <= extent * (1 + 1.0 / 65536)) {
+	if (wide > 0 && std::isfinite(wide) && wide <= extent * (1 + 1.0 / 65536)) {
 		lattice.origin = start;
 		lattice.step   = wide / steps;
 	}
@@ -75,6 +93,8 @@ makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, doubl
 		lattice.step = extent / steps;
 	if (!(lattice.step > 0)) // one point, or an extent at the end of the denormals
 		lattice.step = 1;
+	while (!std::isfinite(farCorner(lattice))) // rounded up, next to the largest double
+		lattice.step = std::nextafter(lattice.step, 0);
 	return lattice;
 }
 
@@ -102,8 +122,11 @@ quantise(const std::vector<std::array<double, 3>>& positions, const Lattice& lat
 	for (std::size_t i = 0; i < positions.size(); ++i)
 		for (std::size_t k = 0; k < 3; ++k) {
 			const double steps = std::round((positions[i][k] - lattice.origin[k]) / lattice.step);
+			// No number at all is 0 as well.
 			points[i][k] =
-			    static_cast<std::int32_t>(std::clamp(steps, 0.0, double((1 << lattice.bits) - 1)));
+			    steps > 0
+			        ? static_cast<std::int32_t>(std::min(steps, double((1 << lattice.bits) - 1)))
+			        : 0;
 		}
 	return points;
 }

@@ -29,24 +29,6 @@ std::vector<Value> pick(const std::vector<Value>& values, const std::vector<Inde
 	return out;
 }
 
-/// For each corner of `coded` the corner of `own` that is the same, given the vertices.
-std::vector<Index>
-matchCorners(const CornerTable& coded, const CornerTable& own, const std::vector<Index>& source)
-{
-	const std::vector<Index> first = firstCorners(own);
-	std::vector<Index> match(coded.cornerCount());
-	for (Index c = 0; c < coded.cornerCount(); c += 3) {
-		const Index to = source[coded.vertex[c + 1]];
-		Index mine     = first[source[coded.vertex[c]]];
-		while (own.vertex[nextCorner(mine)] != to)
-			mine = own.swingLeft(mine);
-		match[c]     = mine;
-		match[c + 1] = nextCorner(mine);
-		match[c + 2] = prevCorner(mine);
-	}
-	return match;
-}
-
 /// The refinement in the decoder's order; appends the new vertices' sources.
 Refinement canonical(const CornerTable& parent, const Coarsening& step, std::vector<Index>& source)
 {

@@ -29,7 +29,7 @@ public:
 	{
 		if (models_.empty()) { // megabytes, if there are many columns
 			models_.resize(columns_.size());
-			value_ = std::make_unique<MixedValue>();
+			value_ = std::make_unique<MixedValue>(6144);
 		}
 		std::int64_t off = 0; // of the column before, 1/16
 		for (std::size_t k = 0; k < columns_.size() && !coder.exhausted(); ++k) {
@@ -59,7 +59,7 @@ private:
 		kSharp,     ///< away from the sides
 		kPredictors
 	};
-	static_assert(kPredictors == MixedValue::kFewOpinions);
+	static_assert(kPredictors == MixedValue::kSomeOpinions);
 
 	struct ColumnModels
 	{
@@ -137,7 +137,7 @@ private:
 		const std::int64_t guide =
 		    std::clamp<std::int64_t>((view.centre[view.best] + 8) >> 4, 0, end - 1);
 		const int spread = std::max(0, (view.scale[view.best] - 20) / 4);
-		return value_->codeAround<MixedValue::kFewOpinions>(
+		return value_->codeAround<MixedValue::kSomeOpinions>(
 		    coder, x, 0, end, guide, spread, view.context, static_cast<const NoCounts*>(nullptr));
 	}
 

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files that declare much more than they hold: refused by name, or ended, before memory is taken.
+#include "allocation_watch.h"
+#include "codec_check.h"
+#include "container/container.h"
+#include "mesh_families.h"
+#include "wmc_files.h"
+
+#include <gtest/gtest.h>
+
+namespace wavemesh::test {
+namespace {
+
+constexpr std::size_t kLittle = 16u << 20; ///< bytes: the decoder's models take a few megabytes
+
+/// A file as its head and its other chunks' payloads.
+struct Parts
+{
+	Head head;
+	std::vector<std::pair<std::uint8_t, Bytes>> chunks;
+
+	Bytes file() const
+	{
+		Bytes out;
+		writeHead(head, out);
+		for (const auto& [type, payload] : chunks)
+			writeChunk(type, payload, out);
+		return out;
+	}
+	/// The payload of a feature, in the head too.
+	void replace(Feature feature, const Bytes& payload)
+	{
+		head.featureBytes[feature] = payload.size();
+		for (auto& [type, old] : chunks)
+			if (type == kFeatureChunk[feature])
+				old = payload;
+	}
+};
+
+Parts partsOf(const MeshData& mesh, EncodeOptions options = {})
+{
+	options.mode       = Mode::Classic;
+	const auto encoded = encode(mesh, options);
+	const Bytes& file  = encoded->bytes;
+	std::size_t end    = 0;
+	Parts parts {readHead(file.data(), file.size(), end).value(), {}};
+	const auto places = chunksOf(file);
+	for (std::size_t i = 1; i < places.size(); ++i)
+		parts.chunks.emplace_back(
+		    places[i].type, Bytes(
+		                        file.begin() + std::ptrdiff_t(places[i].payload),
+		                        file.begin() + std::ptrdiff_t(places[i].checksum)));
+	return parts;
+}
+
+std::vector<Bytes> emptyStreams()
+{
+	return {Bytes(4, 0), Bytes(60, 0), Bytes(60, 0x55), Bytes(60, 255)};
+}
+
+/// Not a word of this mesh is true; but what is always the same takes few bits, so that a stream of
+/// 60 bytes may well begin like one of millions of points.
+void expectLittleMemoryFor(const Bytes& file)
+{
+	AllocationWatch watch;
+	const auto back = decode(file.data(), file.size());
+	EXPECT_FALSE(back.ok());
+	EXPECT_FALSE(back.hasValue());
+	EXPECT_LT(watch.peak(), 4 * kLittle) << back.status().what;
+}
+
+TEST(Limits, AreNamedWithWhatIsDeclaredAndAllowed)
+{
+	const auto file      = encode(makeTorus(12, 9));
+	const auto complaint = [&](const DecodeLimits& limits) {
+		DecodeOptions o;
+		o.limits        = limits;
+		const auto back = decode(file->bytes.data(), file->bytes.size(), o);
+		EXPECT_EQ(back.status().code, StatusCode::LimitExceeded);
+		return back.status().what;
+	};
+	DecodeLimits limits;
+	limits.maxVertices = 107;
+	EXPECT_EQ(
+	    complaint(limits),
+	    "the file declares 108 vertices, more than the limit of 107 (maxVertices)");
+	limits          = {};
+	limits.maxFaces = 200;
+	EXPECT_EQ(
+	    complaint(limits), "the file declares 216 faces, more than the limit of 200 (maxFaces)");
+}
+
+TEST(Limits, ADeclaredButAbsentRestorationTakesNoMemory)
+{
+	MeshData mesh = makeIcosphere(2);
+	mesh.positions.push_back({1, 2, 3});
+	Parts parts = partsOf(mesh);
+	ASSERT_TRUE(parts.head.has(kRestoration));
+	parts.head.vertices = 190'000'000;
+	parts.head.faces    = 380'000'000;
+	for (const Bytes& stream : emptyStreams()) {
+		parts.replace(kRestoration, stream);
+		expectLittleMemoryFor(parts.file());
+	}
+}
+
+TEST(Limits, DeclaredButAbsentAttributesTakeNoMemory)
+{
+	MeshData mesh = makeIcosphere(2);
+	Attribute a;
+	a.components = 10;
+	a.values.assign(10 * mesh.positions.size(), 0.5);
+	mesh.attributes.assign(60, a);
+	Parts parts                   = partsOf(mesh);
+	parts.head.attributeWidths[0] = 1024;
+	for (const Bytes& stream : emptyStreams()) {
+		parts.replace(kAttributes, stream);
+		expectLittleMemoryFor(parts.file());
+	}
+}
+
+TEST(Limits, AttributesBeyondTheirsAreRefusedByName)
+{
+	MeshData mesh = makeIcosphere(2);
+	mesh.attributes.resize(1);
+	mesh.attributes[0].values.assign(mesh.positions.size(), 0.5);
+	Parts parts = partsOf(mesh);
+	DecodeOptions o;
+	o.limits.maxAttributeValues = mesh.positions.size() - 1;
+	const Bytes file            = parts.file();
+	const auto back             = decode(file.data(), file.size(), o);
+	EXPECT_EQ(back.status().code, StatusCode::LimitExceeded);
+	EXPECT_NE(back.status().what.find("maxAttributeValues"), std::string::npos);
+}
+
+TEST(Limits, ThousandsOfLevelsThatAddAVertexEachAreRefusedByName)
+{
+	Parts parts = partsOf(makeTetrahedron());
+	ASSERT_EQ(parts.head.rows.size(), 1u);
+	LevelRow row = parts.head.rows[0];
+	row.vertices = parts.head.rows[0].vertices = 1'000'000;
+	row.faces = parts.head.rows[0].faces = 2'000'000;
+	row.kind                             = LevelKind::Split;
+	row.bytes                            = 0;
+	parts.head.rows[0].endsChunk         = false;
+	while (parts.head.rows.size() < 4096) {
+		++row.vertices;
+		row.faces += 2;
+		parts.head.rows.push_back(row);
+	}
+	parts.head.rows.back().endsChunk = true;
+	const Bytes file                 = parts.file();
+	AllocationWatch watch;
+	const auto back = decode(file.data(), file.size());
+	EXPECT_EQ(back.status().code, StatusCode::LimitExceeded);
+	EXPECT_NE(back.status().what.find("maxLevelShare"), std::string::npos) << back.status().what;
+	EXPECT_LT(watch.peak(), kLittle);
+	DecodeOptions o;
+	o.limits = DecodeLimits::none();
+	EXPECT_EQ(decode(file.data(), file.size(), o).status().code, StatusCode::Corrupt);
+}
+
+/// What decoding takes at most for a mesh that is there: a fixed part, and so much for a vertex.
+TEST(Limits, DecodingTakesMemoryForTheDeclaredMeshOnly)
+{
+	for (const std::uint32_t vertices : {2'000u, 40'000u})
+		for (const bool full : {false, true}) {
+			EncodeOptions options;
+			options.keepOrder = options.exact = full;
+			options.effort                    = 1;
+			const auto file                   = encode(makeBumpySphere(vertices, 3), options);
+			AllocationWatch watch;
+			ASSERT_TRUE(decode(file->bytes.data(), file->bytes.size()).ok());
+			EXPECT_LT(watch.peak(), kLittle + 700 * std::size_t(vertices)) << vertices;
+		}
+}
+
+} // namespace
+} // namespace wavemesh::test
