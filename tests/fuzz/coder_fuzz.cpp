@@ -24,7 +24,7 @@ struct EvenCounts
 template <class Coder>
 struct Models
 {
-	explicit Models(Coder& coder) : wide(coder, {true, 3}, 2), narrow(coder, {false, 2}, 1) {}
+	explicit Models(Coder&) : wide({true, 3}, 2), narrow({false, 2}, 1) {}
 
 	AdaptiveBit bits[8];
 	AdaptiveUnsigned<32> words;
@@ -35,7 +35,7 @@ struct Models
 	PairMixer<2> pair {4};
 	MixedValue mixed {6144};
 	ResidualShape shapes[MixedValue::kMaxOpinions];
-	ExactSyntax<Coder> wide, narrow;
+	ExactSyntax wide, narrow;
 };
 
 std::uint64_t bitsOf(double x)
@@ -116,7 +116,7 @@ std::uint64_t codeOne(Coder& coder, Models<Coder>& m, ByteSource& in)
 	case 10: {
 		const double near   = finite(numberOf(in.word(8))),
 		             spread = std::abs(finite(numberOf(in.word(8))));
-		return bitsOf(m.wide.code(near, spread, context % 2, numberOf(in.word(8))));
+		return bitsOf(m.wide.code(coder, near, spread, context % 2, numberOf(in.word(8))));
 	}
 	default: {
 		const double near  = double(std::int16_t(in.word(2))) / 100;
@@ -125,7 +125,7 @@ std::uint64_t codeOne(Coder& coder, Models<Coder>& m, ByteSource& in)
 		std::memcpy(&value, &bits, sizeof value);
 		if (std::isnan(value)) // a quiet one, as floats widen to
 			value = std::numeric_limits<float>::quiet_NaN();
-		return bitsOf(m.narrow.code(near, 0.01 * context, 0, double(value)));
+		return bitsOf(m.narrow.code(coder, near, 0.01 * context, 0, double(value)));
 	}
 	}
 }

@@ -243,10 +243,10 @@ Head compactHead(int bits, int firstBits, int lastBits)
 	h.mode         = Mode::Compact;
 	h.lattice.bits = bits;
 	h.rows.resize(4);
-	h.rows[0] = {LevelKind::Base, 4, 4, 20, 5, 40, firstBits + lastBits, false};
-	h.rows[1] = {LevelKind::Split, 6, 8, 20, 5, 30, firstBits + lastBits, false};
-	h.rows[2] = {LevelKind::Precise, 6, 8, 20, 0, 20, lastBits, true};
-	h.rows[3] = {LevelKind::Precise, 6, 8, 20, 0, 0, 0, true};
+	h.rows[0] = {LevelKind::Base, 4, 4, 20, 5, 0, 40, firstBits + lastBits, false};
+	h.rows[1] = {LevelKind::Split, 6, 8, 20, 5, 0, 30, firstBits + lastBits, false};
+	h.rows[2] = {LevelKind::Precise, 6, 8, 20, 0, 0, 20, lastBits, true};
+	h.rows[3] = {LevelKind::Precise, 6, 8, 20, 0, 0, 0, 0, true};
 	return h;
 }
 
