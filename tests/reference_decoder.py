@@ -2609,7 +2609,7 @@ class Order:
             places = [guesses[6], guesses[7], guesses[5], a, b, l[0] % (1 << 32), l[1] % (1 << 32), l[2] % (1 << 32)]
             p = 7
             for i in range(7):
-                if places[i] != NONE and bit(decoder, self.bits["places", i, self.last_place], 30) == 1:
+                if places[i] not in (NONE, (1 << 32) - 1) and bit(decoder, self.bits["places", i, self.last_place], 30) == 1:
                     p = i
                     break
             d = self.jumps["steps", p, min(self.last_step, 7)].read(decoder)
