@@ -49,7 +49,9 @@ void writeFile(const QString& name, const std::vector<std::uint8_t>& bytes)
 	QSaveFile file(name);
 	const auto size = static_cast<qint64>(bytes.size());
 	if (!file.open(QIODevice::WriteOnly) ||
-	    file.write(reinterpret_cast<const char*>(bytes.data()), size) != size || !file.commit())
+	    file.write(reinterpret_cast<const char*>(bytes.data()), size) != size ||
+	    !file.flush() || // commit() would put what a full disk left in the old file's place
+	    !file.commit())
 		throw MLException("Cannot write " + name + ": " + file.errorString() + ".");
 }
 
