@@ -16,7 +16,7 @@ QString grouped(std::uint64_t count)
 {
 	QString digits = QString::number(count);
 	for (int at = digits.size() - 3; at > 0; at -= 3)
-		digits.insert(at, kFigureSpace);
+		digits.insert(at, QChar::Nbsp);
 	return digits;
 }
 

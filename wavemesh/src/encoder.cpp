@@ -246,11 +246,13 @@ private:
 		const double repeating = cellErrorsFor(options_.optimize, true);
 		const PredictorSet all = PredictorSet::All, repeats = PredictorSet::Repeats;
 		if (options_.effort < 3) {
+			// Narrower cells cost next to nothing here, and coarse levels look smoother.
+			const int cell = options_.optimize == Optimize::Balanced ? 4 : 8;
 			if (isSmall())
-				return {{{8, 1, 1, smooth}, all}, {{8, 1, kAll, repeating}, repeats}};
+				return {{{cell, 1, 1, smooth}, all}, {{8, 1, kAll, repeating}, repeats}};
 			if (repeats_)
 				return {{{8, 2, kAll, repeating}, repeats}};
-			return {{{8, 2, 2, smooth}, isLarge() ? PredictorSet::Few : all}};
+			return {{{cell, 2, 2, smooth}, isLarge() ? PredictorSet::Few : all}};
 		}
 		std::vector<Plan> ways;
 		const auto add = [&ways](PredictorSet set, std::initializer_list<ScheduleOptions> some) {
@@ -263,6 +265,8 @@ private:
 			          {8, 1, kAll, smooth},
 			          {4, 1, 2, smooth},
 			          {12, 1, 2, smooth}});
+		if (isSmall()) // as by default
+			add(all, {{4, 1, 1, cellErrorsFor(Optimize::Balanced, false)}});
 		add(repeats, {{8, 1, 1, smooth}, {8, 1, 2, smooth}, {8, 1, kAll, smooth}});
 		if (isSmall() || repeats_)
 			add(repeats, {{4, 1, kAll, repeating},
