@@ -47,7 +47,7 @@ drag() {
 	xdotool mouseup 1
 }
 
-middle=$(((4 * slider_left + 6 * slider_right) / 10))
+middle=$(((slider_left + 3 * slider_right) / 4))
 drag "$slider_right" $((slider_left - 20))
 eventually 20 last_level_is 0
 picture base
@@ -85,7 +85,7 @@ picture saved
 	fail "The saved file does not hold the mesh that was opened: $(<"$out/verify.log")"
 kill -0 "$meshlab" || fail "MeshLab has ended."
 
-# The README's picture of browsing: a level in the middle, the base mesh and the finest level.
+# The README's picture of browsing: a level between, the base mesh and the finest level.
 convert \( "$out/middle.png" -crop 1270x856+0+0 +repage -resize 1000x \) \
 	\( "$out/base.png" "$out/finest-after.png" -crop 1270x856+0+0 +repage -append -resize x674 \) \
 	+append -dither None -colors 128 -define png:compression-level=9 "$out/browse.png"
