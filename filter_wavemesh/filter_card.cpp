@@ -58,7 +58,8 @@ const FilterCard kColour = {
     "level, "
     "as quality, and colours it by that: where the mesh is rough, where it is smooth, and which "
     "vertices the coarse levels keep. The colour ramp leaves out a tenth of the vertices at either "
-    "end; MeshLab's quality mapper and histogram work on the quality.",
+    "end; MeshLab's quality mapper and histogram work on the quality. The mesh has to be an "
+    "oriented manifold.",
     FilterPlugin::Quality | FilterPlugin::VertexColoring,
     MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR};
 
@@ -67,7 +68,8 @@ const FilterCard kEqualise = {
     "An equaliser for shape: makes the details of each band of levels weaker or stronger, from "
     "coarse shapes to the finest bumps, and takes noise off with a threshold. Tick <i>Preview</i> "
     "and move the sliders. Vertices move; connectivity, colours, texture coordinates and all else "
-    "stay, and gains of 1 leave the mesh exactly as it is.",
+    "stay, and gains of 1 leave the mesh exactly as it is. The mesh has to be an oriented "
+    "manifold.",
     FilterPlugin::Smoothing,
     MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL};
 

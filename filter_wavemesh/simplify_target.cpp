@@ -38,8 +38,8 @@ void addTargetParameters(RichParameterList& list, const MeshModel& layer)
 	    "Which of the values below is the target; the others are not used."));
 	list.addParam(RichInt(
 	    "levels_removed", 1, "Levels to remove",
-	    "How many times the mesh is made coarser. One level has 2 to 4 times fewer faces than the "
-	    "next finer one."));
+	    "How many times the mesh is made coarser. Most levels have a third to two thirds of the "
+	    "faces of the next finer one."));
 	list.addParam(RichInt("level", 0, "Level", "0 is the base mesh, the coarsest there is."));
 	list.addParam(RichInt(
 	    "vertices", std::max(1, layer.cm.vn / 4), "Vertices",

@@ -269,7 +269,8 @@ IOWavemeshPlugin::initSaveParameter(const QString& format, const MeshModel& laye
 	addAttributeParameters(list);
 	list.addParam(RichBool(
 	    "custom", false, "User-defined attributes",
-	    "Keep the layer's user-defined attributes of vertices and faces, those that are numbers or points."));
+	    "Keep the layer's user-defined attributes of vertices and faces, those that are numbers or "
+	    "points."));
 	return list;
 }
 

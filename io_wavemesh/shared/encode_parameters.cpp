@@ -9,12 +9,12 @@ void addPromiseParameters(RichParameterList& list)
 {
 	list.addParam(RichBool(
 	    "exact", false, "Exact coordinates",
-	    "Keep every coordinate bit for bit, not only its place on the lattice; larger by what the "
-	    "lattice leaves out."));
+	    "Keep every coordinate bit for bit, not only its place on the lattice, and every number of "
+	    "texture coordinates, quality and the like. Such a file is two to four times as large."));
 	list.addParam(RichBool(
 	    "keep_order", false, "Keep the order",
-	    "Keep the order of vertices and faces; larger by about the logarithm of their number for "
-	    "each.",
+	    "Keep the order of vertices and faces, and the first corner of each face. The file grows "
+	    "by 2 bits per vertex where the order follows the surface, by up to 30 where it does not.",
 	    true));
 }
 
@@ -33,8 +33,9 @@ void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults,
 	list.addParam(RichEnum(
 	    "wgc", int(defaults.wgc), {"off", "on", "auto"}, "Geometrical criterion (WGC)",
 	    "Wavelet geometrical criterion: keep the vertices of sharp edges and corners in the coarse "
-	    "levels. <b>off</b>: connectivity alone decides. <b>on</b>: better coarse levels of "
-	    "mechanical parts. <b>auto</b>: encode both ways and keep the smaller."));
+	    "levels. <b>off</b>: it has no say. <b>on</b>: better coarse levels of mechanical parts. "
+	    "<b>auto</b>: both are tried and the smaller file is kept if <i>Optimize for</i> is size "
+	    "(in compact mode with effort 3 only); else off. With levels it does not matter."));
 	list.addParam(RichEnum(
 	    "lifting", defaults.lifting - kLiftingOff, {"off", "0-disc", "1-disc", "2-disc"}, "Lifting",
 	    "Classic: coarse vertices are moved to make the coarse levels smoother and closer to the "
@@ -49,13 +50,14 @@ void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults,
 	list.addParam(RichEnum(
 	    "optimize", int(defaults.optimize), {"size", "balanced", "levels"}, "Optimize for",
 	    "<b>size</b>: the fewest bytes, coarse levels as they come. <b>balanced</b>: coarse levels "
-	    "close to the original, for about 2 % more bytes. <b>levels</b>: the closest at any low "
-	    "rate.",
+	    "close to the original, for up to 3 % more bytes. <b>levels</b>: the closest at any low "
+	    "rate, for 3 to 25 % more.",
 	    hidePrecision));
 	list.addParam(RichInt(
 	    "effort", defaults.effort, "Effort (1 to 3)",
-	    "Compact: 1 is the fastest to save and to open; 2 chooses by a look at the mesh; 3 tries "
-	    "several ways, takes about five times as long, and keeps the smallest file."));
+	    "1 is the fastest to save and to open, for a larger file. In compact mode 2 chooses one "
+	    "way by a look at the mesh (of two below 4096 vertices, the smaller file), and 3 tries "
+	    "many, keeps the smallest file, and takes five to twenty times as long to save."));
 	list.addParam(RichFloat(
 	    "wgc_sharpness", Scalarm(defaults.wgcSharpness), "WGC: sharpness",
 	    "A vertex is sharp if it lies on the border or if two of its faces meet at an angle whose "
@@ -78,7 +80,9 @@ void addAttributeParameters(RichParameterList& list)
 	    "number. The log says what was rounded."));
 	list.addParam(RichInt(
 	    "normal_bits", usualBits(AttributeKind::Normal), "Normals (bits, 0 = exact)",
-	    "The same of normals, if they are saved. 10 bits are about a tenth of a degree.", true));
+	    "The same of normals, if they are saved. 10 bits turn a normal by less than a tenth of a "
+	    "degree on average, by a quarter at most.",
+	    true));
 	list.addParam(RichInt(
 	    "quality_bits", usualBits(AttributeKind::Quality), "Quality and radius (bits, 0 = exact)",
 	    "The same of quality and radius of vertices and faces. Whole numbers are always exact, as "

@@ -11,14 +11,15 @@ QStringList presetNames()
 QString presetHelp()
 {
 	return "<b>as set below</b>: the options below count. The others set all of them but the "
-	       "precision:<br>"
-	       "<b>smallest</b>: the fewest bytes for the whole mesh; tries several ways, which takes "
-	       "five times as long.<br>"
-	       "<b>balanced</b>: coarse levels close to the original, for 3 to 5 % more bytes.<br>"
-	       "<b>best coarse levels</b>: the closest coarse levels at any low rate, for 15 to 30 % "
-	       "more bytes.<br>"
-	       "<b>exact</b>: balanced, and every coordinate bit for bit, not only its place on the "
-	       "lattice: three to four times as large.";
+	       "precision, the order and the bits of attributes:<br>"
+	       "<b>smallest</b>: the fewest bytes for the whole mesh; tries many ways, which takes "
+	       "about ten times as long as balanced.<br>"
+	       "<b>balanced</b>: coarse levels close to the original, for up to 3.5 % more bytes than "
+	       "smallest.<br>"
+	       "<b>best coarse levels</b>: the closest coarse levels at any low rate, for 5 to 30 % "
+	       "more bytes than smallest.<br>"
+	       "<b>exact</b>: balanced, and every coordinate and every number of attributes bit for "
+	       "bit: two to four times as large.";
 }
 
 EncodeOptions optionsOf(Preset preset, EncodeOptions options)

@@ -64,10 +64,10 @@ void AttributeOptions::addTo(CLI::App& command)
 	command
 	    .add_option(
 	        "--attribute-bits", bits,
-	        "Bits over the range of an attribute, 1 to 24, or exact, as a list: "
-	        "texcoord=12,normal=10,quality=16,radius=16 is what counts where it says nothing; with "
-	        "--exact that is exact. Numbers are off by half a step at most. Colours and whole "
-	        "numbers are always exact")
+	        "Bits over the range of an attribute, 1 to 24, or the word exact, as a list; what it "
+	        "does not name has texcoord=12,normal=10,quality=16,radius=16, or is exact with "
+	        "--exact. Numbers are off by half a step at most. Colours and whole numbers are always "
+	        "exact")
 	    ->group(group);
 }
 

@@ -192,8 +192,8 @@ void addDecode(CLI::App& app, Command& chosen)
 	    "more faces in all levels together, in multiples of the finest level's");
 	addJson(*command, c->json);
 	command->footer("A file that is cut off gives the mesh that its bytes still hold, and a "
-	                "warning. So does an\n"
-	                "attribute that the format of OUT cannot hold.");
+	                "warning. Another\n"
+	                "warning names the attributes that the format of OUT cannot hold.");
 	command->callback([&chosen, c] { chosen = [c] { return c->run(); }; });
 }
 

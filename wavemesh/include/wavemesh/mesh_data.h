@@ -38,8 +38,8 @@ enum class NumberType : std::uint8_t {
 	Double  = 2,
 };
 
-/// Attribute::bits that leave nothing to be seen for most: half a texel of a 2048 pixel texture, a
-/// fifth of a degree. 0, exact, for what has a meaning of its own.
+/// Attribute::bits that leave nothing to be seen for most: steps of half a texel of a 2048
+/// pixel texture, a quarter of a degree at most. 0, exact, for what has a meaning of its own.
 constexpr int usualBits(AttributeKind kind)
 {
 	switch (kind) {

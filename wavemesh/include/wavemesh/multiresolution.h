@@ -38,7 +38,8 @@ public:
 	static constexpr std::uint32_t kNoParent = ~std::uint32_t {0};
 
 	/// Makes the levels of `mesh`.
-	/// @return as encode(): InvalidArgument, Unsupported, Cancelled, OutOfMemory. Linear.
+	/// @return the levels; Unsupported for what is no oriented manifold, isolated vertices, or no
+	///         faces at all; InvalidArgument, LimitExceeded, Cancelled, OutOfMemory. Linear.
 	static Result<Multiresolution>
 	of(const MeshData& mesh, const MultiresolutionOptions& options = {});
 
