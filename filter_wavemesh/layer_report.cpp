@@ -88,7 +88,9 @@ void addReportParameters(RichParameterList& list, const EncodeOptions& defaults,
 	for (const metrics::Configuration& c : metrics::comparedConfigurations(defaults))
 		list.addParam(RichBool(
 		    switchOf(c.name), true, "Configuration " + titleOf(c.name),
-		    "Encode the mesh in this way, with the precision below, and report on it too."));
+		    "Encode the mesh in this way and report on it too. The options below count, but "
+		    "for the mode, and in I to III the aim and the criterion; II and III lift by the disc "
+		    "below."));
 	list.addParam(RichInt(
 	    "samples", 0, "Samples (0 = as many as faces)",
 	    "Points on each of the two surfaces from which distances are measured; at least 25000 if "

@@ -10,7 +10,7 @@
 namespace wavemesh {
 
 /// Appends the parameters to `list`, with the values of `defaults`.
-/// @param hidePrecision  bits and step go to the dialog's advanced part
+/// @param hidePrecision  bits, step and aim go to the dialog's advanced part
 void addEncodeParameters(
     RichParameterList& list, const EncodeOptions& defaults, bool hidePrecision = false);
 

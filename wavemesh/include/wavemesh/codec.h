@@ -184,7 +184,8 @@ struct EncodedMesh
 ///              modified
 /// @return the file; InvalidArgument for options out of range, indices out of range, and
 ///         coordinates that are not finite unless options.exact is set, naming the vertex;
-///         LimitExceeded; Cancelled. The same mesh and options give the same bytes everywhere.
+///         LimitExceeded; Cancelled; OutOfMemory. The same mesh and options give the same bytes
+///         everywhere.
 /// Cost linear in the mesh.
 Result<EncodedMesh> encode(const MeshData& mesh, const EncodeOptions& options = {});
 
@@ -236,7 +237,8 @@ struct DecodedMesh
 ///
 /// @return the mesh; with status Truncated *and* a mesh if the data ends before the level asked
 ///         for but after the base mesh. Errors without a mesh: NotWmc, VersionTooNew, Truncated
-///         (not even the base arrived), Corrupt, ChecksumMismatch, LimitExceeded, Cancelled.
+///         (not even the base arrived), Corrupt, ChecksumMismatch, LimitExceeded, Cancelled,
+///         OutOfMemory.
 /// Vertices of a level keep their index in every finer level, but for the finest if StreamFeatures
 /// says that it is restored or keeps the original's order.
 Result<DecodedMesh>

@@ -23,7 +23,7 @@ enum class StatusCode : std::uint8_t {
 	Truncated        = 20, ///< the data ends early; what did arrive was decoded
 	Corrupt          = 21, ///< the data contradicts itself
 	ChecksumMismatch = 22, ///< a chunk or the finest mesh does not match its checksum
-	LimitExceeded    = 30, ///< more vertices, faces or memory than DecodeLimits allows
+	LimitExceeded    = 30, ///< more than the format can hold, or than DecodeLimits allows
 	OutOfMemory      = 31,
 	Cancelled        = 40, ///< the progress callback asked to stop
 	Internal         = 90, ///< a mistake of ours
