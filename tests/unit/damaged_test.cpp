@@ -114,7 +114,7 @@ protected:
 	}
 
 	/// Where each change costs a whole decoding: every byte of the small files; of the larger ones
-	/// every fourth, and every eleventh under the address sanitizer.
+	/// every fourth, and every 29th under the address sanitizer.
 	std::size_t stride() const { return file_.size() <= 400 ? 1 : kSanitized ? 29 : 4; }
 
 	Bytes file_;
