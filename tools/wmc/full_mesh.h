@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// VCGLib's mesh in double precision with every channel that mesh files have: what they are read
-/// into and written from. Texture coordinates are floats, as VCGLib's importers want them. Expensive to include; keep it out of headers.
+/// into and written from. Texture coordinates are floats, as VCGLib's importers want them.
+/// Expensive to include; keep it out of headers.
 #pragma once
 
 #include <vcg/complex/complex.h>

@@ -50,10 +50,10 @@ struct MixContext
 class MixedValue
 {
 public:
-	static constexpr std::size_t kMaxOpinions = kMostInputs - 1;
+	static constexpr std::size_t kMaxOpinions  = kMostInputs - 1;
 	static constexpr std::size_t kSomeOpinions = 8;
-	static constexpr std::size_t kFewOpinions = 5;
-	static constexpr std::size_t kContexts    = 12;
+	static constexpr std::size_t kFewOpinions  = 5;
+	static constexpr std::size_t kContexts     = 12;
 
 	/// @param firstWeight  of every opinion, 1/65536
 	explicit MixedValue(std::int32_t firstWeight);
@@ -263,7 +263,7 @@ private:
 
 	std::array<std::int32_t, kMaxOpinions> low_, high_; ///< mass below the ends of the range
 	std::uint32_t countLow_ = 0, countHigh_ = 0;        ///< the same of the counts
-	MixInputs input_ {};                                   ///< the last ones from the counts
+	MixInputs input_ {};                                ///< the last ones from the counts
 	std::array<std::vector<MixWeights>, 3> sets_;       ///< by kind of question and context
 	std::vector<std::int32_t> refined_; ///< by kind and odds, probability in 22 bits
 };
