@@ -247,7 +247,7 @@ private:
 		const PredictorSet all = PredictorSet::All, repeats = PredictorSet::Repeats;
 		if (options_.effort < 3) {
 			// Narrower cells cost next to nothing here, and coarse levels look smoother.
-			const int cell = options_.optimize == Optimize::Balanced ? 4 : 8;
+			const int cell = options_.optimize == Optimize::Balanced ? 6 : 8;
 			if (isSmall())
 				return {{{cell, 1, 1, smooth}, all}, {{8, 1, kAll, repeating}, repeats}};
 			if (repeats_)
@@ -266,7 +266,7 @@ private:
 			          {4, 1, 2, smooth},
 			          {12, 1, 2, smooth}});
 		if (isSmall()) // as by default
-			add(all, {{4, 1, 1, cellErrorsFor(Optimize::Balanced, false)}});
+			add(all, {{6, 1, 1, cellErrorsFor(Optimize::Balanced, false)}});
 		add(repeats, {{8, 1, 1, smooth}, {8, 1, 2, smooth}, {8, 1, kAll, smooth}});
 		if (isSmall() || repeats_)
 			add(repeats, {{4, 1, kAll, repeating},
