@@ -103,15 +103,15 @@ class Encoder
 public:
 	Encoder(const MeshData& original, const QuantisedMesh& mesh, const EncodeOptions& options) :
 	        original_(original), mesh_(mesh), options_(options),
-	        repeats_(repeatsItself(mesh.cut.table, mesh.positions))
+	        classic_(options.mode == Mode::Classic || options.effort == 1),
+	        repeats_(!classic_ && repeatsItself(mesh.cut.table, mesh.positions))
 	{
 	}
 
 	Result<EncodedMesh> run()
 	{
-		const bool classic                 = options_.mode == Mode::Classic || options_.effort == 1;
 		const std::vector<Coarsening> ways = coarsenings();
-		const EncodingWork work            = workOf(classic, int(ways.size()));
+		const EncodingWork work            = workOf(int(ways.size()));
 		double done                        = work.prepare;
 		for (const Coarsening& way : ways) {
 			const bool wgc = way.wgc;
@@ -131,7 +131,7 @@ public:
 			if (featuresFor(options_, original_, mesh_.cut) & (1 << kAttributes))
 				attributes.emplace(original_, mesh_, *levels);
 			const Stage writing = stage.part(coarsened, 1);
-			if (!(classic ? tryClassic(*levels, attributes, wgc, writing)
+			if (!(classic_ ? tryClassic(*levels, attributes, wgc, writing)
 			              : tryCompact(*levels, attributes, wgc, writing)))
 				return cancelled();
 		}
@@ -167,22 +167,22 @@ private:
 	}
 
 	/// The levels are not known yet: what they usually are.
-	EncodingWork workOf(bool classic, int passes) const
+	EncodingWork workOf(int passes) const
 	{
 		EncodingWork work {};
 		work.prepare = 1;
 		work.coarsen = options_.optimize == Optimize::Size ? 4.5 : 12;
-		work.levels  = !classic ? 27 : options_.effort == 1 ? 3.5 : 7;
+		work.levels  = !classic_ ? 27 : options_.effort == 1 ? 3.5 : 7;
 		work.finish  = 0.5 + 7 * options_.keepOrder + 7 * options_.exact;
-		work.tries   = classic ? 1 : int(plans().size());
+		work.tries   = classic_ ? 1 : int(plans().size());
 		work.passes  = passes;
 		return work;
 	}
 
 	/// The levels' part in the work of one try.
-	double written(bool classic) const
+	double written() const
 	{
-		const EncodingWork work = workOf(classic, 1);
+		const EncodingWork work = workOf(1);
 		return work.levels / (work.levels + work.finish);
 	}
 
@@ -204,7 +204,7 @@ private:
 		head.lifting = options_.mode == Mode::Classic ? options_.lifting : kLiftingOff;
 		std::vector<std::uint8_t> chunks;
 		auto writer = writerFor(attributes);
-		if (!writeClassic(levels, writer.get(), head, chunks, stage.part(0, written(true))))
+		if (!writeClassic(levels, writer.get(), head, chunks, stage.part(0, written())))
 			return false;
 		keepIfSmaller(levels, writer.get(), head, chunks);
 		return stage(1);
@@ -223,7 +223,7 @@ private:
 			const Schedule schedule = makeSchedule(levels, mesh_.lattice.bits, tries[i].schedule);
 			auto writer             = writerFor(attributes);
 			if (!writeCompact(
-			        levels, schedule, writer.get(), head, chunks, part.part(0, written(false))))
+			        levels, schedule, writer.get(), head, chunks, part.part(0, written())))
 				return false;
 			keepIfSmaller(levels, writer.get(), head, chunks);
 			if (!part(1))
@@ -301,6 +301,7 @@ private:
 	const MeshData& original_;
 	const QuantisedMesh& mesh_;
 	const EncodeOptions& options_;
+	bool classic_;
 	bool repeats_; ///< see repeatsItself()
 	EncodedMesh best_;
 };

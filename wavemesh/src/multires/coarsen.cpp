@@ -223,12 +223,6 @@ private:
 		return score;
 	}
 
-	/// What the error of a removal takes from its score: at the limit as much as bad valences do.
-	double errorScore(const ChildOf& p) const
-	{
-		return error_.active() ? 20 * error_.relative(p) : 0;
-	}
-
 	/// Makes v a child of the pair of neighbours that leaves the smallest error, the best valences
 	/// and the fewest flips and parents.
 	bool addBest(Index v)
@@ -248,10 +242,14 @@ private:
 			for (int k = i + 2; k < s.size; ++k) {
 				if (!CoarsenState::fits(s, i, k))
 					continue;
+				const double error = error_.relative({v, s.ring[i], s.ring[k]});
+				if (error > 1)
+					continue;
 				int score = (staysAnyway(s.ring[i]) ? 8 : 0) + (staysAnyway(s.ring[k]) ? 8 : 0);
 				for (int m = 0; m < CoarsenState::sideCount(s); ++m)
 					score += sideScore(CoarsenState::side(s, i, k, m));
-				const double total = score - errorScore({v, s.ring[i], s.ring[k]});
+				// At the limit an error weighs as much as bad valences do.
+				const double total = score - 20 * error;
 				// The best first, and of equals the one found first.
 				int at = count++;
 				for (; at > 0 && options[at - 1].score < total; --at)

@@ -9,45 +9,35 @@ namespace wavemesh {
 CoarsenState::CoarsenState(const CornerTable& fine) :
         fine_(fine), vertex_(fine.vertexCount), stars_(fine.vertexCount)
 {
-	for (Index c = 0; c < fine.cornerCount(); ++c) {
-		const Index v        = fine.vertex[c];
-		const bool fanBegins = fine.opposite[prevCorner(c)] == kNone;
-		if (fanBegins || vertex_[v].valence == 0)
-			stars_[v].corner[0] = c;
-		stars_[v].boundary = stars_[v].boundary || fanBegins;
-		vertex_[v].valence += fanBegins ? 2 : 1; // a boundary fan has one edge more than faces
-	}
+	const std::vector<Index> first = firstCorners(fine);
 	for (Index v = 0; v < fine.vertexCount; ++v) {
-		vertex_[v].coarseValence = int(vertex_[v].valence);
-		findStar(v);
+		stars_[v]                = starAt(fine, first[v]);
+		vertex_[v].coarseValence = stars_[v].size;
 	}
 }
 
 // ---- stars and sides --------------------------------------------------------------------------
 
-void CoarsenState::findStar(Index v)
+Star starAt(const CornerTable& table, Index corner)
 {
-	Star& s = stars_[v];
-	if (vertex_[v].valence > Star::kMax) {
-		s.size = Star::kMax + 1;
-		return;
-	}
-	s.size       = std::int8_t(vertex_[v].valence);
-	const int n  = s.boundary ? s.size - 1 : s.size;
-	Index corner = s.corner[0];
-	for (int i = 0;; ++i) {
-		const Index next = nextCorner(corner);
-		s.ring[i]        = fine_.vertex[next];
-		s.corner[i]      = corner;
-		if (i + 1 == n) {
-			if (s.boundary) {
-				s.ring[n]   = fine_.vertex[prevCorner(corner)];
-				s.corner[n] = kNone;
-			}
-			return;
+	Star s;
+	s.boundary     = table.opposite[prevCorner(corner)] == kNone;
+	const auto add = [&s](Index neighbour, Index inFace) {
+		if (s.size < Star::kMax) {
+			s.ring[s.size]   = neighbour;
+			s.corner[s.size] = inFace;
 		}
-		corner = nextCorner(fine_.opposite[next]);
-	}
+		++s.size;
+	};
+	Index last = corner, c = corner;
+	do {
+		add(table.vertex[nextCorner(c)], c);
+		last = c;
+		c    = table.swingLeft(c);
+	} while (c != kNone && c != corner);
+	if (c == kNone)
+		add(table.vertex[prevCorner(last)], kNone);
+	return s;
 }
 
 Side CoarsenState::sideAt(const Star& star, int from, int count)
@@ -326,7 +316,7 @@ void CoarsenState::rollBack()
 
 bool CoarsenState::addCentre(Index v)
 {
-	if (vertex_[v].valence != 3 || isChild(v) || isParent(v))
+	if (valence(v) != 3 || isChild(v) || isParent(v))
 		return false;
 	const Star& s = stars_[v];
 	if (s.boundary || isChild(s.ring[0]) || isChild(s.ring[1]) || isChild(s.ring[2]))
@@ -352,7 +342,7 @@ bool CoarsenState::addCentre(Index v)
 
 bool CoarsenState::edgeInFine(Index a, Index b) const
 {
-	if (vertex_[a].valence > vertex_[b].valence)
+	if (valence(a) > valence(b))
 		std::swap(a, b);
 	const Star& s = stars_[a];
 	if (s.size <= Star::kMax)
@@ -370,7 +360,7 @@ bool CoarsenState::edgeInFine(Index a, Index b) const
 /// Edges are listed at their end with the smaller fan, so that lists stay short next to hubs.
 void CoarsenState::orderEnds(Index& a, Index& b) const
 {
-	const Index atA = vertex_[a].valence, atB = vertex_[b].valence;
+	const int atA = valence(a), atB = valence(b);
 	if (atA > atB || (atA == atB && a > b))
 		std::swap(a, b);
 }

@@ -13,13 +13,13 @@ namespace wavemesh {
 /// Neighbours of a vertex in counter-clockwise order; only vertices with few can become children.
 struct Star
 {
-	static constexpr int kMax = 6;
+	static constexpr int kMax = 6; ///< of a vertex with more, the first ones are known
 	Index ring[kMax];
 	/// Corner at the centre of face (centre, ring[i], ring[i+1]); kNone behind the last face of a
-	/// boundary fan. Of a vertex with more neighbours the first is known, and no more.
+	/// boundary fan.
 	Index corner[kMax];
-	std::int8_t size = 0; ///< neighbours; kMax + 1 if there are more
-	bool boundary    = false;
+	int size      = 0; ///< neighbours
+	bool boundary = false;
 
 	int find(Index v) const
 	{
@@ -31,6 +31,9 @@ struct Star
 	/// Number of neighbours between two places, counter-clockwise.
 	int between(int from, int to) const { return to - from - 1 + (to > from ? 0 : size); }
 };
+
+/// @param corner  one of firstCorners()
+Star starAt(const CornerTable& table, Index corner);
 
 /// The faces on one side of a child m, from parent `from` counter-clockwise to parent `to`:
 ///
@@ -74,7 +77,7 @@ public:
 	bool isParent(Index v) const { return vertex_[v].childCount != 0; }
 	bool isCentre(Index v) const { return isChild(v) && vertex_[v].parents[2] != kNone; }
 	const std::array<Index, 3>& parents(Index v) const { return vertex_[v].parents; }
-	int valence(Index v) const { return int(vertex_[v].valence); }        ///< in M^j
+	int valence(Index v) const { return stars_[v].size; }                 ///< in M^j
 	int coarseValence(Index v) const { return vertex_[v].coarseValence; } ///< in M^{j-1} so far
 
 	const Star& star(Index v) const { return stars_[v]; }
@@ -111,7 +114,6 @@ private:
 	struct Vertex
 	{
 		std::array<Index, 3> parents {kNone, kNone, kNone}; ///< of a child; third only of a centre
-		Index valence     = 0;
 		int coarseValence = 0;
 		Index childCount  = 0;                ///< how many have it as parent
 		Index edges       = kNone;            ///< list of new edges
@@ -126,7 +128,6 @@ private:
 		Index a, b; ///< the edge, or a the child
 	};
 
-	void findStar(Index v);
 	static Side sideAt(const Star& star, int from, int count);
 	/// The side of a child that holds a neighbour which is not its parent; tells its index.
 	Side sideWith(Index child, Index neighbour, int& sideIndex) const;

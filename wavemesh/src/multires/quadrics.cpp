@@ -93,24 +93,4 @@ void Quadrics::carry(const Coarsening& step, const std::vector<LatticePoint>& fi
 	quadrics_ = std::move(coarse);
 }
 
-double
-Quadrics::errorOf(const Coarsening& step, const std::vector<LatticePoint>& finePositions) const
-{
-	const CornerTable& table = step.coarse;
-	const auto place         = [&](Index corner, Index child) {
-        return difference(
-		            finePositions[step.fineVertex[table.vertex[corner]]], finePositions[child]);
-	};
-	double sum = 0;
-	for (Index c = 0; c < table.cornerCount(); ++c) {
-		const Index child = step.childOnEdge[c], across = table.opposite[c];
-		if (child == kNone || (across != kNone && across < c))
-			continue;
-		const Vector3 a = place(nextCorner(c), child), b = place(prevCorner(c), child);
-		const Vector3 middle {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
-		sum += std::max(0.0, quadrics_[child].at(middle) - quadrics_[child].c);
-	}
-	return sum;
-}
-
 } // namespace wavemesh

@@ -42,9 +42,6 @@ public:
 	/// @param finePositions  of that level. Linear.
 	void carry(const Coarsening& step, const std::vector<LatticePoint>& finePositions);
 
-	/// Squared distance times area that a step adds: of each child at the middle of its parents.
-	double errorOf(const Coarsening& step, const std::vector<LatticePoint>& finePositions) const;
-
 	const Quadric& of(Index v) const { return quadrics_[v]; }
 
 private:

@@ -2,31 +2,110 @@
 #include "multires/removal_error.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace wavemesh {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
 /// A 4:1 merge may make so many times the error of other removals.
 constexpr double kCompleteRelief = 4;
+/// Vertices that are enough to judge a level by.
+constexpr std::size_t kSample = 1024;
+
+std::size_t strideFor(std::size_t count)
+{
+	return 1 + count / kSample;
+}
 
 } // namespace
+
+// ---- one removal --------------------------------------------------------------------------------
+
+/// What is added to the error at the vertex itself, which is there already.
+double Removal::error(Index child, const Vector3& place) const
+{
+	const Quadric& q = quadrics_->of(child);
+	return std::max(0.0, q.at(place) - q.c);
+}
+
+double Removal::toMiddle(const ChildOf& p) const
+{
+	const LatticePoint &a = (*positions_)[p.parentA], &b = (*positions_)[p.parentB],
+	                   &child = (*positions_)[p.child];
+	Vector3 middle;
+	for (std::size_t k = 0; k < 3; ++k)
+		middle[k] = 0.5 * (double(a[k]) + b[k]) - child[k];
+	return error(p.child, middle);
+}
+
+double Removal::between(Index child, const Star& s, int placeA, int placeB, double most) const
+{
+	const double e = toMiddle({child, s.ring[placeA], s.ring[placeB]});
+	if (e > most)
+		return kInfinite;
+	for (int i = 0; i < CoarsenState::sideCount(s); ++i)
+		if (folds(CoarsenState::side(s, placeA, placeB, i)))
+			return kInfinite;
+	return e;
+}
+
+double Removal::least(Index v, const Star& s) const
+{
+	double best = kInfinite;
+	for (int i = 0; i < s.size && s.size <= Star::kMax; ++i)
+		for (int k = i + 2; k < s.size; ++k)
+			if (CoarsenState::fits(s, i, k))
+				best = std::min(best, between(v, s, i, k, best));
+	return best;
+}
+
+double Removal::toCentre(Index v, const Star& s) const
+{
+	Vector3 place {};
+	for (int i = 0; i < s.size && i < 3; ++i)
+		for (std::size_t k = 0; k < 3; ++k)
+			place[k] += (double((*positions_)[s.ring[i]][k]) - (*positions_)[v][k]) / 3;
+	return error(v, place);
+}
+
+/// Does every way to close the side, without its child, turn a face away from the fine ones?
+bool Removal::folds(const Side& s) const
+{
+	const auto normal = [&](Index a, Index b, Index c) {
+		return cross(
+		    difference((*positions_)[b], (*positions_)[a]), difference((*positions_)[c], (*positions_)[a]));
+	};
+		Vector3 before {};
+	for (int i = 0; i <= s.count; ++i) {
+		const Index c = s.corner[i];
+		const Vector3 n =
+		    normal(fine_->vertex[c], fine_->vertex[nextCorner(c)], fine_->vertex[prevCorner(c)]);
+		for (std::size_t k = 0; k < 3; ++k)
+			before[k] += n[k];
+	}
+	// A face without area turns nowhere.
+	const auto turns = [&](Index a, Index b, Index c) { return dot(before, normal(a, b, c)) < 0; };
+	if (s.count == 1)
+		return turns(s.from, s.inner[0], s.to);
+	return (turns(s.from, s.inner[0], s.to) || turns(s.to, s.inner[0], s.inner[1])) &&
+	       (turns(s.from, s.inner[1], s.to) || turns(s.from, s.inner[0], s.inner[1]));
+}
+
+// ---- what a step may remove ---------------------------------------------------------------------
 
 RemovalError::RemovalError(
     const CoarsenState& state,
     const std::vector<LatticePoint>& positions,
     const ErrorCriterion& criterion) :
-        state_(state),
-        positions_(positions), criterion_(criterion)
+        state_(state)
 {
-	if (!active() || positions.empty())
+	if (!criterion.active())
 		return;
+	removal_.emplace(state.fine(), positions, *criterion.quadrics);
 	std::vector<double> least;
-	least.reserve(positions.size());
-	for (Index v = 0; v < positions.size(); ++v)
-		if (const double e = this->least(v); e < kInfinite)
+	const std::size_t stride = strideFor(positions.size());
+	for (std::size_t v = 0; v < positions.size(); v += stride)
+		if (const double e = removal_->least(Index(v), state.star(Index(v)));
+		    e < Removal::kInfinite)
 			least.push_back(e);
 	if (least.empty())
 		return;
@@ -36,33 +115,20 @@ RemovalError::RemovalError(
 	limit_ = *at;
 }
 
-/// Of all pairs of parents that v could have.
-double RemovalError::least(Index v) const
-{
-	double best   = kInfinite;
-	const Star& s = state_.star(v);
-	if (s.size > Star::kMax)
-		return best;
-	for (int i = 0; i < s.size; ++i)
-		for (int k = i + 2; k < s.size; ++k) {
-			if (CoarsenState::fits(s, i, k))
-				best = std::min(best, ofPlaces({v, s.ring[i], s.ring[k]}, i, k, best));
-		}
-	return best;
-}
-
 double RemovalError::of(const ChildOf& p, double most) const
 {
 	const Star& s = state_.star(p.child);
 	if (s.size > Star::kMax)
-		return kInfinite;
+		return Removal::kInfinite;
 	const int a = s.find(p.parentA), b = s.find(p.parentB);
-	return a >= 0 && b >= 0 && CoarsenState::fits(s, a, b) ? ofPlaces(p, a, b, most) : kInfinite;
+	return a >= 0 && b >= 0 && CoarsenState::fits(s, a, b)
+	           ? removal_->between(p.child, s, a, b, most)
+	           : Removal::kInfinite;
 }
 
 double RemovalError::relative(const ChildOf& p) const
 {
-	const double e = of(p);
+	const double e = active() ? of(p, limit_) : 0;
 	return e > 0 ? e / limit_ : 0;
 }
 
@@ -74,61 +140,39 @@ bool RemovalError::allows(const ChildOf& p, bool complete) const
 
 bool RemovalError::allowsCentre(Index v) const
 {
-	if (!active())
-		return true;
-	const Star& s = state_.star(v);
-	Vector3 place {};
-	for (int i = 0; i < s.size && i < 3; ++i)
-		for (std::size_t k = 0; k < 3; ++k)
-			place[k] += (double(positions_[s.ring[i]][k]) - positions_[v][k]) / 3;
-	return error(v, place) <= limit_;
+	return !active() || removal_->toCentre(v, state_.star(v)) <= limit_;
 }
 
-/// What is added to the error at the vertex itself, which is there already.
-double RemovalError::error(Index child, const Vector3& place) const
-{
-	const Quadric& q = criterion_.quadrics->of(child);
-	return std::max(0.0, q.at(place) - q.at({0, 0, 0}));
-}
+// ---- what a step did ----------------------------------------------------------------------------
 
-double RemovalError::ofPlaces(const ChildOf& p, int placeA, int placeB, double most) const
+double excessError(
+    const CornerTable& fine,
+    const std::vector<LatticePoint>& positions,
+    const Quadrics& quadrics,
+    const Coarsening& step)
 {
-	Vector3 middle;
-	for (std::size_t k = 0; k < 3; ++k)
-		middle[k] = 0.5 * (double(positions_[p.parentA][k]) + positions_[p.parentB][k]) -
-		            positions_[p.child][k];
-	const double e = error(p.child, middle);
-	if (e > most)
-		return kInfinite;
-	const Star& s = state_.star(p.child);
-	for (int i = 0; i < CoarsenState::sideCount(s); ++i)
-		if (folds(CoarsenState::side(s, placeA, placeB, i)))
-			return kInfinite;
-	return e;
-}
-
-/// Does every way to close the side, without its child, turn a face away from the fine ones?
-bool RemovalError::folds(const Side& s) const
-{
-	const auto normal = [&](Index a, Index b, Index c) {
-		return cross(
-		    difference(positions_[b], positions_[a]), difference(positions_[c], positions_[a]));
-	};
-	const CornerTable& fine = state_.fine();
-	Vector3 before {};
-	for (int i = 0; i <= s.count; ++i) {
-		const Index c = s.corner[i];
-		const Vector3 n =
-		    normal(fine.vertex[c], fine.vertex[nextCorner(c)], fine.vertex[prevCorner(c)]);
-		for (std::size_t k = 0; k < 3; ++k)
-			before[k] += n[k];
+	std::vector<ChildOf> removed;
+	const CornerTable& table = step.coarse;
+	for (Index c = 0; c < table.cornerCount(); ++c) {
+		const Index child = step.childOnEdge[c], across = table.opposite[c];
+		if (child != kNone && (across == kNone || c < across))
+			removed.push_back(
+			    {child, step.fineVertex[table.vertex[nextCorner(c)]],
+			     step.fineVertex[table.vertex[prevCorner(c)]]});
 	}
-	// A face without area turns nowhere.
-	const auto turns = [&](Index a, Index b, Index c) { return dot(before, normal(a, b, c)) < 0; };
-	if (s.count == 1)
-		return turns(s.from, s.inner[0], s.to);
-	return (turns(s.from, s.inner[0], s.to) || turns(s.to, s.inner[0], s.inner[1])) &&
-	       (turns(s.from, s.inner[1], s.to) || turns(s.from, s.inner[0], s.inner[1]));
+	const std::vector<Index> first = firstCorners(fine);
+	const Removal removal(fine, positions, quadrics);
+	double made = 0, least = 0;
+	const std::size_t stride = strideFor(removed.size());
+	for (std::size_t i = 0; i < removed.size(); i += stride) {
+		const ChildOf& p = removed[i];
+		if (const double e = removal.least(p.child, starAt(fine, first[p.child]));
+		    e < Removal::kInfinite) {
+			made += removal.toMiddle(p);
+			least += e;
+		}
+	}
+	return made > 0 ? made / least : 1;
 }
 
 } // namespace wavemesh
