@@ -217,6 +217,23 @@ TEST(CoarsenByError, RemovesNothingOverTheLimitOfTheStep)
 	}
 }
 
+TEST(CoarsenByError, AFreeStepIsInExcessOnPlanesAndEdgesOnly)
+{
+	const auto excess = [](const MeshData& mesh) {
+		const StageMesh m = stageMesh(mesh, 12);
+		return excessError(
+		    m.table, m.positions, Quadrics(m.table, m.positions),
+		    coarsen(m.table, m.positions, {}, {}, {}));
+	};
+	for (const MeshData& mesh : {makeBumpySphere(2500, 51), makeTerrain(2500, 52), makeGrid(50, 50)}) {
+		EXPECT_GE(excess(mesh), 1);
+		EXPECT_LT(excess(mesh), 9);
+	}
+	EXPECT_GT(excess(makeStarPrism(20, 30)), 13);
+	EXPECT_GT(excess(makeHoledPlate(3, 20)), 13);
+	EXPECT_EQ(excess(makeFlatGrid(30, 30)), 1) << "nothing to lose";
+}
+
 TEST(CoarsenByError, RemovesAThirdOfTheVerticesInTheMean)
 {
 	for (const MeshData& mesh : {makeBumpySphere(2500, 51), makeTerrain(2500, 52)}) {
