@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reference decoder of .wmc mesh files, version 0.3.
+"""Reference decoder of .wmc mesh files, version 0.4.
 
 Written from docs/wmc_format.md alone, without a look at any other implementation. It follows that document's
 sections and names: whoever reads one should find his way in the other. It is meant to be read and to be compared
@@ -200,7 +200,7 @@ def read_head(data):
     if chunk.type != "H":
         raise corrupt("the first chunk is not the head")
     payload = chunk.payload
-    if len(payload) >= 2 and (payload[0] != 0 or payload[1] != 3):
+    if len(payload) >= 2 and (payload[0] != 0 or payload[1] != 4):
         raise Outcome("VersionTooNew", "version %d.%d" % (payload[0], payload[1]))
     if not chunk.whole:
         raise Outcome("Truncated", "in the head")
@@ -1511,6 +1511,51 @@ def likely(mesh, cells, b, glue):
         B = tuple(-x for x in bend[v])
         t = along(B, normal[v])
         result.append(tuple(middle[v][k] + clamp((t * normal[v][k]) >> 15, -r, r) for k in range(3)))
+    return result
+
+
+# ----------------------------------------------------------------------------------------------------------------
+# 13.14 Where a level is shown
+# ----------------------------------------------------------------------------------------------------------------
+
+def shown(mesh, cells, s, parents, bits, glue):
+    """parents of the vertices that the last split brought"""
+    L = likely(mesh, cells, s, glue)
+    n = normals(mesh, [shifted(p, max(0, bits - 16)) for p in L])
+
+    def g(u, v):
+        """the height, or None if the pair is steep"""
+        way = sub(L[v], L[u])
+        height = sum(way[k] * (n[v][k] - n[u][k]) for k in range(3)) >> 17
+        return None if height * height > sum(x * x for x in way) >> 7 else height
+
+    q = max(0, bits - 12)
+    A = B = 0
+    for i, pair in enumerate(parents):
+        if len(pair) != 2:
+            continue
+        x = mesh.vertices - len(parents) + i
+        a, b = pair
+        guess = (g(a, b) or 0) >> q
+        height = sum((2 * L[x][k] - L[a][k] - L[b][k]) * (n[a][k] + n[b][k]) for k in range(3)) >> (16 + q)
+        A += height * guess
+        B += guess * guess
+    D = 2 * A - B
+    pairs = [g(mesh.V[c], mesh.V[mesh.next[c]]) for c in range(len(mesh.V))]
+    if D <= 0 or 4 * pairs.count(None) > len(pairs):
+        return L
+    h = max(0, bitlen(B) - 40)
+    t = min(256, ((D >> h) * 256) // (B >> h))
+    result = []
+    for v in range(mesh.vertices):
+        around_v = [u for c in mesh.corners[v] for u in (mesh.V[mesh.next[c]], mesh.V[mesh.prev[c]])]
+        if not around_v or glue and glue.shared(v):
+            result.append(L[v])
+            continue
+        G = trunc_div(sum(g(v, u) or 0 for u in around_v), len(around_v))
+        m = [(16 * x << s) + 8 * ((1 << s) - 1) for x in cells[v]]
+        r = 8 * ((1 << s) - 1)
+        result.append(tuple(m[k] + clamp(L[v][k] + ((t * G * n[v][k]) >> 22) - m[k], -r, r) for k in range(3)))
     return result
 
 
@@ -3106,6 +3151,7 @@ class Decoder:
         self.level = NONE                                   # that mesh and positions are of
         self.mesh = None
         self.positions = None
+        self.parents = []                                   # of the last split's new vertices
         self.restored = None                                # 12.3: lattice positions, faces
         self.turned = None                                  # 12.3: of the faces of level J
         self.exact = None                                   # 12.4
@@ -3186,6 +3232,7 @@ class Decoder:
                 details, whole = self.details.read(decoder, self.mesh, self.positions, split)
                 self.positions = synthesis(self.mesh, self.positions, split, details, head.lifting, self.glue)
             self.mesh = mesh
+            self.parents = split.parents if head.compact else []
         if self.attributes and head.kind[i] != PRECISE:
             if not whole:
                 self.attributes = None                          # 12.6 says what they are then; not of use here
@@ -3263,8 +3310,9 @@ class Decoder:
         if self.exact:
             vertices = self.exact
         elif shift > 0:
-            vertices = [model_position(head, [x / 16 for x in L])
-                        for L in likely(mesh, positions, shift, self.glue)]
+            parents = self.parents if mesh.vertices < head.vertices[head.J] else []
+            vertices = [model_position(head, [x / 16 for x in p])
+                        for p in shown(mesh, positions, shift, parents, head.bits, self.glue)]
         else:
             vertices = [model_position(head, P) for P in positions]
         if self.order:
@@ -3291,7 +3339,7 @@ def write_obj(path, vertices, faces):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Reference decoder of .wmc mesh files, version 0.3.")
+    parser = argparse.ArgumentParser(description="Reference decoder of .wmc mesh files, version 0.4.")
     parser.add_argument("file")
     parser.add_argument("--level", type=int, help="the level to decode; the finest if not given")
     parser.add_argument("--output", help="an OBJ file to write")

@@ -225,7 +225,8 @@ TEST(CoarsenByError, AFreeStepIsInExcessOnPlanesAndEdgesOnly)
 		    m.table, m.positions, Quadrics(m.table, m.positions),
 		    coarsen(m.table, m.positions, {}, {}, {}));
 	};
-	for (const MeshData& mesh : {makeBumpySphere(2500, 51), makeTerrain(2500, 52), makeCollapsedSphere(2500, 53)}) {
+	for (const MeshData& mesh :
+	     {makeBumpySphere(2500, 51), makeTerrain(2500, 52), makeCollapsedSphere(2500, 53)}) {
 		EXPECT_GE(excess(mesh), 1);
 		EXPECT_LT(excess(mesh), 9);
 	}

@@ -3,6 +3,7 @@
 #include "finish/finish.h"
 #include "level_work.h"
 #include "multires/refine.h"
+#include "predict/shown_positions.h"
 #include "stage.h"
 #include "syntax/base_syntax.h"
 #include "syntax/connectivity_syntax.h"
@@ -26,8 +27,9 @@ struct Decoder::State
 
 	int level = -1;
 	CornerTable table;
-	std::vector<LatticePoint> positions;         ///< cells of the level's precision
-	Glue glue;                                   ///< of the base mesh
+	std::vector<LatticePoint> positions; ///< cells of the level's precision
+	Parents lastParents; ///< compact, below the finest split: of the last split's new vertices
+	Glue glue;           ///< of the base mesh
 	std::unique_ptr<AttributeReader> attributes; ///< if the file has any
 	std::optional<MeshData> finished; ///< level J with what follows it, as far as it came
 	Status stopped;                   ///< not ok: no further level can come
@@ -225,7 +227,7 @@ Status Decoder::State::readDetails(const Refinement& refinement)
 /// Compact: the cells of the new vertices.
 Status Decoder::State::readChildren(const Refinement& refinement, const CornerTable& child)
 {
-	const Parents parents = parentsOf(table, refinement);
+	lastParents = parentsOf(table, refinement);
 	if (!compactModels)
 		compactModels = std::make_unique<CompactModels>(head.predictors);
 	positions.resize(child.vertexCount, {0, 0, 0});
@@ -233,9 +235,11 @@ Status Decoder::State::readChildren(const Refinement& refinement, const CornerTa
 	    head.predictors,
 	    [&](auto syntax) {
 		    syntax.watch(watched(kConnectivityWork));
-		    syntax.codeChildren(table, refinement, parents, row(level + 1).shift, positions);
+		    syntax.codeChildren(table, refinement, lastParents, row(level + 1).shift, positions);
 	    },
 	    coder, *compactModels, child, head.lattice.bits, glue);
+	if (child.vertexCount == info.levels.back().vertices)
+		lastParents = {}; // no level is shown that needs them
 	if (cancelled)
 		return wavemesh::cancelled();
 	return coder.exhausted() ? ended("the positions") : Status();
@@ -441,7 +445,8 @@ MeshData Decoder::mesh() const
 		for (const LatticePoint& p : s.positions)
 			out.positions.push_back(s.head.lattice.position(p));
 	else
-		for (const LatticePoint& p : likelyPositions(s.table, s.positions, shift, s.glue))
+		for (const LatticePoint& p : shownPositions(
+		         s.table, s.lastParents, s.positions, shift, s.head.lattice.bits, s.glue))
 			out.positions.push_back(s.head.lattice.positionOfSixteenths(p));
 	out.triangles.resize(s.table.faceCount());
 	for (std::size_t f = 0; f < out.triangles.size(); ++f)

@@ -132,7 +132,7 @@ public:
 				attributes.emplace(original_, mesh_, *levels);
 			const Stage writing = stage.part(coarsened, 1);
 			if (!(classic_ ? tryClassic(*levels, attributes, wgc, writing)
-			              : tryCompact(*levels, attributes, wgc, writing)))
+			               : tryCompact(*levels, attributes, wgc, writing)))
 				return cancelled();
 		}
 		return std::move(best_);

@@ -72,9 +72,10 @@ bool Removal::folds(const Side& s) const
 {
 	const auto normal = [&](Index a, Index b, Index c) {
 		return cross(
-		    difference((*positions_)[b], (*positions_)[a]), difference((*positions_)[c], (*positions_)[a]));
+		    difference((*positions_)[b], (*positions_)[a]),
+		    difference((*positions_)[c], (*positions_)[a]));
 	};
-		Vector3 before {};
+	Vector3 before {};
 	for (int i = 0; i <= s.count; ++i) {
 		const Index c = s.corner[i];
 		const Vector3 n =
