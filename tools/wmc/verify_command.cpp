@@ -200,7 +200,9 @@ void checkMesh(
     const StreamInfo& info,
     std::vector<Promise>& promises)
 {
-	const auto compare = info.features.restored ? whatDiffersInAnyMesh : whatDiffers;
+	const auto compare = [&](const LabelledMesh& a, const LabelledMesh& b) {
+		return info.features.restored ? whatDiffersInAnyMesh(a, b) : whatDiffers(a, b);
+	};
 	if (info.features.exact)
 		promises.push_back({"float-lossless", compare(bitForBit(original), bitForBit(decoded))});
 	else {
