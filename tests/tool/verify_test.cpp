@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_edit.h"
 #include "mesh_families.h"
+#include "mesh_files.h"
 #include "run_wmc.h"
+
+#include <limits>
 
 namespace wavemesh::test {
 
@@ -69,6 +72,18 @@ TEST_F(Verify, HoldsInAnyOrderOfVerticesAndFaces)
 	const MeshData mesh = makeBumpySphere(500, 1);
 	encoded("a", mesh);
 	EXPECT_EQ(against(shuffled(mesh, 5)).code, 0);
+}
+
+TEST_F(Verify, HoldsForCoordinatesThatAreNoNumbers)
+{
+	MeshData mesh         = makeBumpySphere(100, 1);
+	mesh.positions[5][1]  = std::numeric_limits<double>::quiet_NaN();
+	mesh.positions[20][0] = std::numeric_limits<double>::infinity();
+	mesh.positions[40][2] = -0.0;
+	tool::saveMesh(mesh, path("a.ply"));
+	ASSERT_EQ(runWmc({"encode", path("a.ply"), path("a.wmc"), "--exact"}).code, 0);
+	const RunResult r = runWmc({"verify", path("a.ply"), path("a.wmc")});
+	EXPECT_EQ(r.code, 0) << r.err;
 }
 
 TEST_F(Verify, FailsForOneMovedVertex)

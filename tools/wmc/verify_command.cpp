@@ -95,19 +95,20 @@ bool hasMoved(const MeshData& coarse, const MeshData& fine)
 	    fine.positions.begin() + static_cast<std::ptrdiff_t>(coarse.positions.size()));
 }
 
+/// By bit patterns: not-a-numbers too.
+template <class T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
+{
+	return a.size() == b.size() &&
+	       (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
 bool same(const MeshData& a, const MeshData& b)
 {
-	if (a.positions != b.positions || a.triangles != b.triangles ||
-	    a.attributes.size() != b.attributes.size())
-		return false;
-	for (std::size_t i = 0; i < a.attributes.size(); ++i)
-		if (a.attributes[i].values.size() != b.attributes[i].values.size() ||
-		    (!a.attributes[i].values.empty() &&
-		     std::memcmp(
-		         a.attributes[i].values.data(), b.attributes[i].values.data(),
-		         a.attributes[i].values.size() * sizeof(double)) != 0))
-			return false;
-	return true;
+	return sameBits(a.positions, b.positions) && a.triangles == b.triangles &&
+	       std::equal(
+	           a.attributes.begin(), a.attributes.end(), b.attributes.begin(), b.attributes.end(),
+	           [](const Attribute& x, const Attribute& y) { return sameBits(x.values, y.values); });
 }
 
 /// Every level decodes, as declared, manifold, with the topology of all others.
