@@ -80,6 +80,22 @@ TEST_F(WmcTest, WrongCommandLinesExitWithTwoAndOneLine)
 	EXPECT_EQ(files(), std::vector<std::string> {"a.obj"});
 }
 
+TEST_F(WmcTest, AMeshOfNothingIsAMeshWhereTheFileSaysSo)
+{
+	tool::saveMesh({}, path("a.ply"));
+	tool::saveMesh({}, path("a.off"));
+	for (const std::string in : {"a.ply", "a.off"}) {
+		EXPECT_EQ(runWmc({"encode", path(in), path("a.wmc")}).code, 0) << in;
+		EXPECT_EQ(runWmc({"info", path("a.wmc"), "--json"}).json()["vertices"], 0);
+		const RunResult r = runWmc({"verify", path(in), path("a.wmc")});
+		EXPECT_EQ(r.code, 0) << r.err;
+		EXPECT_EQ(runWmc({"decode", path("a.wmc"), path("b.off")}).code, 0);
+		EXPECT_EQ(readAll(path("b.off")), readAll(path("a.off")));
+	}
+	writeAll(path("a.obj"), std::string("# nothing\n"));
+	EXPECT_EQ(runWmc({"encode", path("a.obj"), path("a.wmc")}).code, 1);
+}
+
 TEST_F(WmcTest, JsonHasTheFieldsScriptsRelyOnAndNothingElseIsPrinted)
 {
 	writeObj(path("a.obj"), makeBumpySphere(800, 1));

@@ -222,7 +222,8 @@ MeshData loadMesh(const std::string& path, unsigned channels, std::vector<std::s
 	addOwn(own, mesh);
 	if (notRead)
 		*notRead = own.notRead;
-	if (mesh.positions.empty())
+	// A PLY or OFF may say that it has none; in another file they were not understood.
+	if (mesh.positions.empty() && format != Format::Ply && format != Format::Off)
 		throw Failure(path + ": there are no vertices in it");
 	return mesh;
 }

@@ -135,7 +135,7 @@ std::string checkLevels(const Bytes& file, MeshData& finest)
 		// The finest may be anything, and in any order.
 		const StreamFeatures& f = info.features;
 		const bool finished     = i == info.finestLevel() && (f.restored || f.orderKept || f.exact);
-		if (finished && f.restored) {
+		if ((finished && f.restored) || (info.vertices == 0 && info.faces == 0)) {
 			last = mesh;
 			continue;
 		}
