@@ -123,6 +123,17 @@ TEST_F(PlyProperties, ThatCannotBeKeptAreNamed)
 	EXPECT_EQ(runWmc({"encode", path("a.ply"), path("b.wmc"), "--attributes", "none"}).err, "");
 }
 
+TEST_F(PlyProperties, WithNamesOfAnyBytesAreNoTroubleForJsonAndTerminals)
+{
+	std::string text = kTwoTriangles;
+	text.replace(text.find("heat"), 4, "h\xff\x1b[31m");
+	write("a.ply", text);
+	(void)throughWmc("a.ply");
+	EXPECT_EQ(whenDecoded_.find('\x1b'), std::string::npos);
+	EXPECT_EQ(runWmc({"info", path("a.wmc")}).out.find('\x1b'), std::string::npos);
+	EXPECT_EQ(runWmc({"info", path("a.wmc"), "--json"}).json()["attributes"].size(), 6u);
+}
+
 TEST_F(PlyProperties, WithNamesThatOthersHaveAreNotWritten)
 {
 	MeshData mesh = makeTetrahedron();
