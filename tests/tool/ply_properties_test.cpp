@@ -98,12 +98,15 @@ TEST_F(PlyProperties, OfAPolygonAreThoseOfItsTriangles)
 	    "a.ply", "ply\nformat ascii 1.0\nelement vertex 6\n"
 	             "property float x\nproperty float y\nproperty float z\n"
 	             "element face 2\nproperty float before\nproperty list uchar int vertex_indices\n"
-	             "property float after\nend_header\n"
+	             "property float after\nproperty uchar red\nproperty uchar green\n"
+	             "property uchar blue\nproperty uchar alpha\nend_header\n"
 	             "0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n3 0 0\n"
-	             "0.5 5 0 1 2 3 4 1.5\n0.25 3 1 5 2 1.25\n");
+	             "0.5 5 0 1 2 3 4 1.5 1 2 3 4\n0.25 3 1 5 2 1.25 5 6 7 8\n");
 	auto of = byName(throughWmc("a.ply", {"--keep-order"}));
 	EXPECT_EQ(of["face before"].values, (std::vector<double> {0.5, 0.5, 0.5, 0.25}));
 	EXPECT_EQ(of["face after"].values, (std::vector<double> {1.5, 1.5, 1.5, 1.25}));
+	EXPECT_EQ(
+	    of["face "].values, (std::vector<double> {1, 2, 3, 4, 1, 2, 3, 4, 1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
 TEST_F(PlyProperties, ThatCannotBeKeptAreNamed)

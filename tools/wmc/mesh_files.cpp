@@ -86,6 +86,16 @@ private:
 	std::filesystem::path before_;
 };
 
+/// The importer of PLY gives a polygon's transparency and normal to the first triangle only.
+void completePolygons(FullMesh& m)
+{
+	for (std::size_t f = 1; f < m.face.size(); ++f)
+		if (m.face[f].IsF(0)) {
+			m.face[f].C() = m.face[f - 1].C();
+			m.face[f].N() = m.face[f - 1].N();
+		}
+}
+
 /// What VCGLib's importer says: empty, or why the mesh is refused.
 /// @param mask  [out] what the file has, bits of vcg::tri::io::Mask
 std::string import(FullMesh& m, const std::string& path, Format format, int& mask)
@@ -93,6 +103,8 @@ std::string import(FullMesh& m, const std::string& path, Format format, int& mas
 	switch (format) {
 	case Format::Ply: {
 		const int error = io::ImporterPLY<FullMesh>::Open(m, path.c_str(), mask, showImport);
+		if (mask & io::Mask::IOM_BITPOLYGONAL)
+			completePolygons(m);
 		return error ? io::ImporterPLY<FullMesh>::ErrorMsg(error) : "";
 	}
 	case Format::Obj: {

@@ -326,7 +326,7 @@ void addOwnProperties(const MeshData& mesh, FullMesh& m, io::PlyInfo& ply)
 
 /// PLY and STL by VCGLib. Its exporters do not see a disk that is full when they close the file:
 /// the length tells.
-void writeBinary(const MeshData& mesh, const OutputFile& out, bool isStl)
+void writeBinary(const MeshData& mesh, const std::string& path, const OutputFile& out, bool isStl)
 {
 	FullMesh m;
 	fromMeshData(mesh, m);
@@ -339,7 +339,7 @@ void writeBinary(const MeshData& mesh, const OutputFile& out, bool isStl)
 	                               : io::ExporterPLY<FullMesh>::Save(m, out.path().c_str(), true, ply);
 	const std::size_t want = isStl ? 84 + 50 * mesh.triangles.size() : lengthOfPly(out.path());
 	if (error || want == 0 || fileSize(out.path()) != want)
-		throw Failure("the mesh could not be written whole; is the disk full?");
+		throw Failure(path + ": the mesh could not be written whole; is the disk full?");
 }
 
 /// Can a file of this format hold the attribute?
@@ -392,7 +392,7 @@ std::vector<std::string> saveMesh(const MeshData& mesh, const std::string& path)
 	else if (format == Format::Off)
 		writeOff(mesh, out);
 	else
-		writeBinary(mesh, out, format == Format::Stl);
+		writeBinary(mesh, path, out, format == Format::Stl);
 	out.commit();
 	if (format == Format::Obj && isTextured(mesh))
 		writeMaterials(mesh, path);
