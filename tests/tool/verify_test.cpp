@@ -74,6 +74,22 @@ TEST_F(Verify, HoldsInAnyOrderOfVerticesAndFaces)
 	EXPECT_EQ(against(shuffled(mesh, 5)).code, 0);
 }
 
+TEST_F(Verify, HoldsForVeryManyComponents)
+{
+	// Places repeat: many components look alike.
+	std::vector<MeshData> parts;
+	for (int i = 0; i < 12'000; ++i)
+		parts.push_back(
+		    moved(i % 3 > 0 ? makeTriangle() : makeTetrahedron(), i % 20, i / 20 % 20, i % 7));
+	const MeshData mesh = joined(parts);
+	encoded("a", mesh);
+	const RunResult r = against(shuffled(mesh, 3));
+	EXPECT_EQ(r.code, 0) << r.err;
+	MeshData other = mesh;
+	std::swap(other.triangles[9'000][0], other.triangles[9'000][1]);
+	EXPECT_EQ(against(other).code, 1);
+}
+
 TEST_F(Verify, HoldsForCoordinatesThatAreNoNumbers)
 {
 	MeshData mesh         = makeBumpySphere(100, 1);

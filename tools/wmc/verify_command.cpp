@@ -161,22 +161,27 @@ std::string checkLevels(const Bytes& file, MeshData& finest)
 std::string checkPrefixes(const Bytes& file, const StreamInfo& info)
 {
 	ProgressLine line("checking prefixes");
+	auto decoder = Decoder::open(file.data(), file.size(), DecodeLimits::none());
+	if (!decoder.ok())
+		return decoder.status().what;
 	for (int i = 0; i <= info.finestLevel(); ++i) {
 		line.show(double(i) / double(info.levels.size()));
 		const std::string name     = "level " + std::to_string(i) + ": ";
 		const std::uint64_t prefix = info.levels[static_cast<std::size_t>(i)].prefix;
 		DecodeOptions options      = ofOwnFile();
 		options.level              = i;
-		const auto whole           = decode(file.data(), file.size(), options);
+		if (const Status s = decoder->advance(); !s.ok())
+			return name + s.what;
+		const MeshData whole = decoder->mesh();
 		// In a buffer of its own, so that reading past it is not reading the rest of the file.
 		const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(prefix));
 		const auto part = decode(cut.data(), cut.size(), options);
-		if (!whole.ok() || !part.ok() || part->level != i || !same(whole->mesh, part->mesh))
+		if (!part.ok() || part->level != i || !same(whole, part->mesh))
 			return name + "is not whole in the prefix declared";
 		// A byte less may be told to be cut, or do as well; but it gives no other mesh silently.
 		options.maxBytes   = prefix - 1;
 		const auto shorter = decode(file.data(), file.size(), options);
-		if (shorter.ok() ? !same(whole->mesh, shorter->mesh)
+		if (shorter.ok() ? !same(whole, shorter->mesh)
 		                 : shorter.status().code != StatusCode::Truncated)
 			return name + "without its last byte it is another mesh, and nothing tells";
 	}
