@@ -6,6 +6,9 @@
 #include <wrap/io_trimesh/io_mask.h>
 
 #include <algorithm>
+#include <iterator>
+#include <typeindex>
+#include <utility>
 
 namespace wavemesh {
 namespace {
@@ -48,6 +51,22 @@ bool hasFauxEdges(const CMeshO& m)
 	return std::any_of(m.face.begin(), m.face.end(), [](const CFaceO& f) {
 		return !f.IsD() && (f.IsF(0) || f.IsF(1) || f.IsF(2));
 	});
+}
+
+/// Names of user-defined attributes, but for those that a file is given.
+template <class Attributes>
+QStringList userDefined(const Attributes& all, unsigned channels)
+{
+	const std::type_index kept[] = {
+	    typeid(float), typeid(double), typeid(vcg::Point3<float>), typeid(vcg::Point3<double>)};
+	QStringList names;
+	for (const auto& a : all) {
+		const bool hasPlace =
+		    std::find(std::begin(kept), std::end(kept), a._type) != std::end(kept);
+		if (!a._name.empty() && !(hasPlace && (channels & kCustom)))
+			names << QString::fromStdString(a._name);
+	}
+	return names;
 }
 
 /// Switches on what `channels` need, which has to come before they are written.
@@ -141,6 +160,11 @@ QStringList attributesNotKept(const MeshModel& layer, unsigned channels)
 	for (const Kind& kind : kKinds)
 		if (kind.name != nullptr && has(layer, kind) && !(channels & kind.channel))
 			names << kind.name;
+	for (const auto& [of, list] :
+	     {std::pair("vertices", userDefined(layer.cm.vert_attr, channels)),
+	      std::pair("faces", userDefined(layer.cm.face_attr, channels))})
+		if (!list.isEmpty())
+			names << QString("user-defined attributes of %1 (%2)").arg(QString(of), list.join(", "));
 	if (layer.cm.en > 0)
 		names << "edges";
 	return names;

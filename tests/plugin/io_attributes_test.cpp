@@ -242,9 +242,9 @@ TEST(IoAttributes, WhatIsNotChosenOrNotThereIsNotSaved)
 TEST(IoAttributes, TheLogNamesWhatTheLayerHasAndTheFileDoesNot)
 {
 	MeshLabHost& host  = freshHost();
-	const auto warning = [&](std::optional<int> mask) {
+	const auto warning = [&](std::optional<int> mask, const MeshLabHost::Settings& settings = {}) {
 		host.document().Log.clear();
-		host.save(scratch("logged.wmc"), {}, mask);
+		host.save(scratch("logged.wmc"), settings, mask);
 		QStringList lines;
 		host.document().Log.print(lines);
 		const QStringList found = lines.filter("Not saved");
@@ -257,6 +257,16 @@ TEST(IoAttributes, TheLogNamesWhatTheLayerHasAndTheFileDoesNot)
 	EXPECT_EQ(warning({}), QString());
 	EXPECT_TRUE(warning(Mask::IOM_VERTCOLOR).contains("wedge texture coordinates"));
 	EXPECT_FALSE(warning(Mask::IOM_VERTCOLOR).contains("colours"));
+
+	Custom::AddPerVertexAttribute<float>(layer.cm, "weight");
+	Custom::AddPerFaceAttribute<vcg::Point3f>(layer.cm, "pull");
+	Custom::AddPerFaceAttribute<int>(layer.cm, "part");
+	EXPECT_TRUE(warning({}).contains("user-defined attributes of vertices (weight), "
+	                                 "user-defined attributes of faces (part, pull)"))
+	    << qPrintable(warning({}));
+	EXPECT_TRUE(warning({}, {{"custom", "true"}})
+	                .contains("Not saved: user-defined attributes of faces (part)."))
+	    << qPrintable(warning({}, {{"custom", "true"}}));
 }
 
 TEST(IoAttributes, EveryLevelHasTheColoursOfItsVertices)

@@ -73,7 +73,8 @@ TEST_F(WmcTest, ReportComparesTheThreeConfigurationsAndTheCompactMode)
 		EXPECT_EQ(all[i]["mode"], "classic");
 	EXPECT_EQ(all[3]["configuration"], "compact");
 	EXPECT_EQ(all[3]["mode"], "compact");
-	const RunResult text = runWmc({"report", path("a.obj"), "--samples", "2000", "--configs"});
+	const RunResult text =
+	    runWmc({"report", path("a.obj"), "--samples", "2000", "--configs", "--lifting", "1"});
 	EXPECT_EQ(text.code, 0);
 	EXPECT_NE(text.out.find("III"), std::string::npos);
 	EXPECT_NE(text.out.find("compact"), std::string::npos);

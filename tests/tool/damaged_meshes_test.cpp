@@ -84,7 +84,8 @@ TEST_F(WmcTest, RandomDamageNeverCrashesAReader)
 			const RunResult r = runWmc({"encode", path("b." + format), path("out.wmc")});
 			EXPECT_TRUE(r.code == 0 || r.code == 1)
 			    << format << " round " << round << ": " << r.err;
-			EXPECT_EQ(r.errorLines(), r.code == 0 ? 0u : 1u) << r.err;
+			const bool warns = r.code == 0 && r.err.find("not kept: ") != std::string::npos;
+			EXPECT_EQ(r.errorLines(), r.code == 0 && !warns ? 0u : 1u) << r.err;
 		}
 	}
 }

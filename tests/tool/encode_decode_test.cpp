@@ -54,6 +54,9 @@ TEST_F(WmcTest, WrongCommandLinesExitWithTwoAndOneLine)
 	    {"encode", in, out, "--bits", "10", "--step", "0.1"},
 	    {"encode", in, out, "--mode", "magic"},
 	    {"encode", in, out, "--mode", "classic", "--lifting", "3"},
+	    {"encode", in, out, "--lifting", "2"},
+	    {"encode", in, out, "--mode", "compact", "--lifting", "0"},
+	    {"report", in, "--lifting", "1"},
 	    {"encode", in, out, "--mode", "modern"},
 	    {"encode", in, out, "--effort", "0"},
 	    {"encode", in, out, "--effort", "4"},
@@ -75,6 +78,22 @@ TEST_F(WmcTest, WrongCommandLinesExitWithTwoAndOneLine)
 		EXPECT_EQ(r.out, "");
 	}
 	EXPECT_EQ(files(), std::vector<std::string> {"a.obj"});
+}
+
+TEST_F(WmcTest, AMeshOfNothingIsAMeshWhereTheFileSaysSo)
+{
+	tool::saveMesh({}, path("a.ply"));
+	tool::saveMesh({}, path("a.off"));
+	for (const std::string in : {"a.ply", "a.off"}) {
+		EXPECT_EQ(runWmc({"encode", path(in), path("a.wmc")}).code, 0) << in;
+		EXPECT_EQ(runWmc({"info", path("a.wmc"), "--json"}).json()["vertices"], 0);
+		const RunResult r = runWmc({"verify", path(in), path("a.wmc")});
+		EXPECT_EQ(r.code, 0) << r.err;
+		EXPECT_EQ(runWmc({"decode", path("a.wmc"), path("b.off")}).code, 0);
+		EXPECT_EQ(readAll(path("b.off")), readAll(path("a.off")));
+	}
+	writeAll(path("a.obj"), std::string("# nothing\n"));
+	EXPECT_EQ(runWmc({"encode", path("a.obj"), path("a.wmc")}).code, 1);
 }
 
 TEST_F(WmcTest, JsonHasTheFieldsScriptsRelyOnAndNothingElseIsPrinted)

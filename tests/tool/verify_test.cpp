@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh_edit.h"
 #include "mesh_families.h"
+#include "mesh_files.h"
 #include "run_wmc.h"
+
+#include <limits>
 
 namespace wavemesh::test {
 
@@ -69,6 +72,34 @@ TEST_F(Verify, HoldsInAnyOrderOfVerticesAndFaces)
 	const MeshData mesh = makeBumpySphere(500, 1);
 	encoded("a", mesh);
 	EXPECT_EQ(against(shuffled(mesh, 5)).code, 0);
+}
+
+TEST_F(Verify, HoldsForVeryManyComponents)
+{
+	// Places repeat: many components look alike.
+	std::vector<MeshData> parts;
+	for (int i = 0; i < 12'000; ++i)
+		parts.push_back(
+		    moved(i % 3 > 0 ? makeTriangle() : makeTetrahedron(), i % 20, i / 20 % 20, i % 7));
+	const MeshData mesh = joined(parts);
+	encoded("a", mesh);
+	const RunResult r = against(shuffled(mesh, 3));
+	EXPECT_EQ(r.code, 0) << r.err;
+	MeshData other = mesh;
+	std::swap(other.triangles[9'000][0], other.triangles[9'000][1]);
+	EXPECT_EQ(against(other).code, 1);
+}
+
+TEST_F(Verify, HoldsForCoordinatesThatAreNoNumbers)
+{
+	MeshData mesh         = makeBumpySphere(100, 1);
+	mesh.positions[5][1]  = std::numeric_limits<double>::quiet_NaN();
+	mesh.positions[20][0] = std::numeric_limits<double>::infinity();
+	mesh.positions[40][2] = -0.0;
+	tool::saveMesh(mesh, path("a.ply"));
+	ASSERT_EQ(runWmc({"encode", path("a.ply"), path("a.wmc"), "--exact"}).code, 0);
+	const RunResult r = runWmc({"verify", path("a.ply"), path("a.wmc")});
+	EXPECT_EQ(r.code, 0) << r.err;
 }
 
 TEST_F(Verify, FailsForOneMovedVertex)

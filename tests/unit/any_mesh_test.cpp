@@ -295,6 +295,13 @@ TEST(AnyMesh, SolidsThatTouchAtAnEdgeOrAVertexComeBack)
 	EXPECT_EQ(whatFails(fans), "");
 }
 
+TEST(AnyMesh, AnEmptyMeshAndOneOfPointsOnlyComeBack)
+{
+	EXPECT_EQ(whatFails(MeshData {}), "");
+	EXPECT_EQ(whatFails(makeSoup(1, 0, 1)), "");
+	EXPECT_EQ(whatFails(makeSoup(1000, 0, 1)), "");
+}
+
 TEST(AnyMesh, SingleTrianglesComeBack)
 {
 	MeshData mesh;

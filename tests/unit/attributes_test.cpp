@@ -383,6 +383,33 @@ TEST(Attributes, SmoothColoursAndSeamsCostLittle)
 	EXPECT_LT(8.0 * double(encode(textured)->info.features.attributeBytes) / n, 85);
 }
 
+TEST(Attributes, OfAHubOfManyFacesComeBack)
+{
+	// Looking through all of the hub's corners for each of them, this would not end.
+	constexpr std::uint32_t kSpokes = 100'000;
+	MeshData fan;
+	addVertex(fan, 0, 0, 1);
+	for (std::uint32_t i = 0; i < kSpokes; ++i)
+		addVertex(fan, std::cos(i * 6e-5), std::sin(i * 6e-5), i % 7);
+	for (std::uint32_t i = 0; i < kSpokes; ++i)
+		addFace(fan, 0, 1 + i, 1 + (i + 1) % kSpokes);
+	EncodeOptions o;
+	o.effort    = 1;
+	o.keepOrder = true;
+	// At the hub two rows that take turns, and as many rows as faces: as many charts.
+	for (const std::uint32_t rows : {2u, kSpokes}) {
+		Attribute a = make(AttributeOf::Corner, AttributeKind::Custom, NumberType::Integer, 1, "");
+		for (std::uint32_t i = 0; i < 3 * kSpokes; ++i)
+			a.values.push_back(i % 3 == 0 ? (i / 3) % rows : 7);
+		fan.attributes  = {a};
+		const auto file = encode(fan, o);
+		ASSERT_TRUE(file.ok()) << file.status().what;
+		const auto back = decode(file->bytes.data(), file->bytes.size());
+		ASSERT_TRUE(back.ok()) << back.status().what;
+		EXPECT_EQ(back->mesh.attributes[0].values, a.values);
+	}
+}
+
 TEST(Attributes, ThatAreNoneAreRefusedByName)
 {
 	MeshData mesh      = withAttributes(makeIcosphere(2), 1);

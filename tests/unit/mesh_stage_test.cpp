@@ -182,6 +182,20 @@ TEST(CornerTable, RefusesAndNamesWhatIsWrong)
 	    StatusCode::Unsupported, "vertex 0");
 }
 
+TEST(CheckCounts, RefusesMoreThanTheFormatHoldsAndSaysWhatToDo)
+{
+	constexpr std::size_t kMost = 715'827'882; // docs/wmc_format.md
+	EXPECT_TRUE(checkCounts(0, 0).ok());
+	EXPECT_TRUE(checkCounts(kMost, kMost).ok());
+	EXPECT_EQ(checkCounts(kMost + 1, 0).code, StatusCode::LimitExceeded);
+	EXPECT_EQ(
+	    checkCounts(kMost + 1, 5).what,
+	    "the mesh has 715827883 vertices, more than the 715827882 that a .wmc can hold: split it");
+	EXPECT_EQ(
+	    checkCounts(5, std::size_t(1) << 40).what,
+	    "the mesh has 1099511627776 faces, more than the 715827882 that a .wmc can hold: split it");
+}
+
 TEST(CornerTable, TwoTetrahedraJoinedAtAVertex_AreRefused)
 {
 	MeshData m = joined({makeTetrahedron(), makeTetrahedron()});

@@ -77,7 +77,7 @@ TEST(ShownPositions, OfASphereAreNearerToItThanLikelyOnes)
 {
 	for (const int bits : {10, 12, 16, 20})
 		for (const std::size_t below : {1u, 2u}) {
-			const Level level = levelOf(makeIcosphere(32), below, bits);
+			const Level level = levelOf(makeIcosphere(32), below, bits, 8);
 			EXPECT_LT(
 			    offTheSphere(level.table, level.shown(), bits),
 			    0.6 * offTheSphere(level.table, level.likely(), bits))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The question of isomorphism.h for meshes that are no manifolds: any faces, the same one several
-/// times, degenerate ones, isolated vertices.
+/// As isomorphism.h, for any triangles: edges and vertices that are not manifold, faces not
+/// oriented alike, degenerate faces, several times the same face, isolated vertices.
 #pragma once
 
 #include "isomorphism.h"
@@ -9,9 +9,11 @@
 namespace wavemesh::tool {
 
 /// Empty if there is a one-to-one map of the vertices of `a` to those of `b` that keeps labels and
-/// takes the faces of `a`, with orientation and number, to those of `b`; otherwise what differs, or
-/// that no map was found: vertices are told apart by what is around them, and where that does not
-/// help, by trying; a map that is found is checked. @pre all indices exist
-std::string whatDiffersInAnyMesh(const LabelledMesh& a, const LabelledMesh& b);
+/// takes the faces of `a` to those of `b`, each as often and up to its first corner; otherwise the
+/// first difference found. Exact: it is empty for the same mesh, and for no other.
+/// @param steps  [out] what it cost, if not null: places looked at
+/// Cost O((V + F) log(V + F)), but for meshes whose parts look alike far around and are different.
+std::string
+whatDiffersInAnyMesh(const LabelledMesh& a, const LabelledMesh& b, std::uint64_t* steps = nullptr);
 
 } // namespace wavemesh::tool

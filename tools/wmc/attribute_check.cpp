@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces are sorted by the labels of their corners. Those with the same labels are laid onto each
-// other, in whichever of the three turns their attributes agree; isolated vertices likewise.
+// Faces are sorted by the labels of their corners. Those with the same labels are sorted by their
+// attributes and laid onto each other, in whichever of the three turns these agree; isolated
+// vertices likewise.
 #include "attribute_check.h"
 
-#include "attribute_options.h"
+#include "attribute_pair.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <numeric>
+#include <functional>
 
 namespace wavemesh::tool {
 
@@ -58,49 +57,6 @@ std::vector<std::uint32_t> isolatedVertices(const LabelledMesh& mesh)
 	return out;
 }
 
-/// An attribute of both meshes.
-class Pair
-{
-public:
-	Pair(const Attribute& original, const Attribute& decoded, double step) :
-	        original_(original), decoded_(decoded), step_(step)
-	{
-	}
-
-	AttributeOf of() const { return original_.of; }
-	bool isFauxEdges() const { return original_.kind == AttributeKind::FauxEdges; }
-	std::string name() const { return nameOf(original_.of, original_.kind, original_.name); }
-
-	bool agree(std::size_t a, std::size_t b) const
-	{
-		const auto width = std::size_t(original_.components);
-		for (std::size_t k = 0; k < width; ++k)
-			if (!isNear(original_.values[a * width + k], decoded_.values[b * width + k]))
-				return false;
-		return true;
-	}
-	/// Of faces, corner k of b lying on corner k + turn of a.
-	bool agreeTurned(std::size_t a, std::size_t b, std::uint32_t turn) const
-	{
-		const auto bits       = [](double x) { return static_cast<std::uint32_t>(x) & 7; };
-		const std::uint32_t x = bits(original_.values[a]), y = bits(decoded_.values[b]);
-		return ((x >> turn) | (x << (3 - turn))) % 8 == y;
-	}
-
-private:
-	bool isNear(double x, double y) const
-	{
-		if (std::memcmp(&x, &y, sizeof x) == 0)
-			return true;
-		// Half a step, and the rounding to 32 bits.
-		return step_ > 0 && std::abs(x - y) <= 0.5 * step_ * (1 + 1e-9) + 1e-7 * std::abs(x);
-	}
-
-	const Attribute& original_;
-	const Attribute& decoded_;
-	double step_;
-};
-
 /// First of `pairs` that does not agree in this turn, or nullptr.
 const Pair* disagreeing(
     const std::vector<Pair>& pairs,
@@ -124,22 +80,81 @@ const Pair* disagreeing(
 	return nullptr;
 }
 
-/// Lays the elements of a run of equal keys, [begin, end) in both, onto each other.
-template <class Fits>
-const Pair* layRun(std::size_t begin, std::size_t end, Fits fits)
+Signature signatureOf(
+    const std::vector<Pair>& pairs,
+    const LabelledMesh& mesh,
+    const Key& key,
+    std::uint32_t turn,
+    bool isDecoded)
 {
-	std::vector<std::size_t> left(end - begin);
-	std::iota(left.begin(), left.end(), begin);
-	for (std::size_t i = begin; i < end; ++i) {
+	Signature signature;
+	for (const Pair& p : pairs) {
+		if (p.isFauxEdges())
+			p.appendTurned(isDecoded, key.face, (key.first + turn) % 3, signature);
+		else if (p.of() == AttributeOf::Face)
+			p.append(isDecoded, key.face, signature);
+		for (std::uint32_t k = 0; k < 3; ++k) {
+			const std::uint32_t corner = (key.first + turn + k) % 3;
+			if (p.of() == AttributeOf::Vertex)
+				p.append(isDecoded, mesh.triangles[key.face][corner], signature);
+			else if (p.of() == AttributeOf::Corner)
+				p.append(isDecoded, 3 * key.face + corner, signature);
+		}
+	}
+	return signature;
+}
+
+struct Signed
+{
+	Signature signature;
+	std::size_t at;
+};
+
+std::vector<Signed>
+signedRun(std::size_t begin, std::size_t end, const std::function<Signature(std::size_t)>& sign)
+{
+	std::vector<Signed> run;
+	for (std::size_t i = begin; i < end; ++i)
+		run.push_back({sign(i), i});
+	std::sort(run.begin(), run.end(), [](const Signed& x, const Signed& y) {
+		return x.signature < y.signature;
+	});
+	return run;
+}
+
+/// Lays the elements of a run of equal keys, [begin, end) in both, onto each other: the same
+/// signatures first, then whatever fits.
+template <class Sign, class Fits>
+const Pair* layRun(std::size_t begin, std::size_t end, Sign sign, Fits fits)
+{
+	if (end == begin + 1)
+		return fits(begin, begin);
+	const auto x = signedRun(begin, end, [&](std::size_t i) { return sign(false, i); });
+	const auto y = signedRun(begin, end, [&](std::size_t j) { return sign(true, j); });
+	std::vector<std::size_t> ofX, ofY;
+	std::size_t i = 0, j = 0;
+	while (i < x.size() && j < y.size())
+		if (x[i].signature == y[j].signature && !fits(x[i].at, y[j].at))
+			++i, ++j;
+		else if (x[i].signature < y[j].signature)
+			ofX.push_back(x[i++].at);
+		else
+			ofY.push_back(y[j++].at);
+	for (; i < x.size(); ++i)
+		ofX.push_back(x[i].at);
+	for (; j < y.size(); ++j)
+		ofY.push_back(y[j].at);
+	for (const std::size_t a : ofX) {
 		const Pair* wrong = nullptr;
-		const auto found  = std::find_if(left.begin(), left.end(), [&](std::size_t j) {
-            const Pair* now = fits(i, j);
+		const auto found  = std::find_if(ofY.begin(), ofY.end(), [&](std::size_t b) {
+            const Pair* now = fits(a, b);
             wrong           = wrong ? wrong : now;
             return now == nullptr;
         });
-		if (found == left.end())
+		if (found == ofY.end())
 			return wrong;
-		left.erase(found);
+		*found = ofY.back();
+		ofY.pop_back();
 	}
 	return nullptr;
 }
@@ -147,19 +162,30 @@ const Pair* layRun(std::size_t begin, std::size_t end, Fits fits)
 const Pair* checkFaces(const std::vector<Pair>& pairs, const LabelledMesh& a, const LabelledMesh& b)
 {
 	const std::vector<Key> x = keysOf(a), y = keysOf(b);
+	const auto hasTurns = [&](std::size_t i) {
+		const auto& labels = x[i].labels;
+		return labels[0] == labels[1] && labels[1] == labels[2];
+	};
+	const auto sign = [&](bool isDecoded, std::size_t i) {
+		const LabelledMesh& mesh = isDecoded ? b : a;
+		const Key& key           = (isDecoded ? y : x)[i];
+		Signature lowest         = signatureOf(pairs, mesh, key, 0, isDecoded);
+		for (std::uint32_t turn = 1; hasTurns(i) && turn < 3; ++turn)
+			lowest = std::min(lowest, signatureOf(pairs, mesh, key, turn, isDecoded));
+		return lowest;
+	};
+	const auto fits = [&](std::size_t i, std::size_t j) {
+		const Pair* first = disagreeing(pairs, a, b, x[i], y[j], 0);
+		for (std::uint32_t turn = 1; first && hasTurns(i) && turn < 3; ++turn)
+			if (!disagreeing(pairs, a, b, x[i], y[j], turn))
+				return static_cast<const Pair*>(nullptr);
+		return first;
+	};
 	const Pair* wrong = nullptr;
 	for (std::size_t begin = 0, end = 0; begin < x.size() && !wrong; begin = end) {
 		while (end < x.size() && x[end].labels == x[begin].labels)
 			++end;
-		wrong = layRun(begin, end, [&](std::size_t i, std::size_t j) -> const Pair* {
-			const auto& labels = x[i].labels;
-			const bool turns   = labels[0] == labels[1] && labels[1] == labels[2];
-			const Pair* first  = disagreeing(pairs, a, b, x[i], y[j], 0);
-			for (std::uint32_t turn = 1; first && turns && turn < 3; ++turn)
-				if (!disagreeing(pairs, a, b, x[i], y[j], turn))
-					return nullptr;
-			return first;
-		});
+		wrong = layRun(begin, end, sign, fits);
 	}
 	return wrong;
 }
@@ -168,16 +194,24 @@ const Pair*
 checkIsolated(const std::vector<Pair>& pairs, const LabelledMesh& a, const LabelledMesh& b)
 {
 	const std::vector<std::uint32_t> x = isolatedVertices(a), y = isolatedVertices(b);
+	const auto sign = [&](bool isDecoded, std::size_t i) {
+		Signature signature;
+		for (const Pair& p : pairs)
+			if (p.of() == AttributeOf::Vertex)
+				p.append(isDecoded, (isDecoded ? y : x)[i], signature);
+		return signature;
+	};
+	const auto fits = [&](std::size_t i, std::size_t j) -> const Pair* {
+		for (const Pair& p : pairs)
+			if (p.of() == AttributeOf::Vertex && !p.agree(x[i], y[j]))
+				return &p;
+		return nullptr;
+	};
 	const Pair* wrong = nullptr;
 	for (std::size_t begin = 0, end = 0; begin < x.size() && !wrong; begin = end) {
 		while (end < x.size() && a.labels[x[end]] == a.labels[x[begin]])
 			++end;
-		wrong = layRun(begin, end, [&](std::size_t i, std::size_t j) -> const Pair* {
-			for (const Pair& p : pairs)
-				if (p.of() == AttributeOf::Vertex && !p.agree(x[i], y[j]))
-					return &p;
-			return nullptr;
-		});
+		wrong = layRun(begin, end, sign, fits);
 	}
 	return wrong;
 }

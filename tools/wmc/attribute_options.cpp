@@ -29,6 +29,7 @@ constexpr Named kNamed[] = {
     {"radius", AttributeKind::Radius, kVertexRadius, true},
     {"texcoord", AttributeKind::TexCoord, kVertexTexCoord | kWedgeTexCoord | kTextures, true},
     {"polygons", AttributeKind::FauxEdges, kFauxEdges, false},
+    {"custom", AttributeKind::Custom, kCustom, true},
 };
 
 const Named& find(const std::string& name)
@@ -37,7 +38,8 @@ const Named& find(const std::string& name)
 		if (name == n.name || (name == "color" && n.kind == AttributeKind::Colour))
 			return n;
 	throw UsageError(
-	    "'" + name + "' is no attribute: colour, normal, quality, radius, texcoord, polygons");
+	    "'" + name +
+	    "' is no attribute: colour, normal, quality, radius, texcoord, polygons, custom");
 }
 
 std::vector<std::string> splitAtCommas(const std::string& list)
@@ -58,7 +60,8 @@ void AttributeOptions::addTo(CLI::App& command)
 	    .add_option(
 	        "--attributes", kept,
 	        "Which of the mesh's attributes to keep: none, all, or a list of colour, normal, "
-	        "quality, radius, texcoord (with the names of textures), polygons")
+	        "quality, radius, texcoord (with the names of textures), polygons, custom (further "
+	        "numbers that a PLY has for each vertex or face)")
 	    ->capture_default_str()
 	    ->group(group);
 	command

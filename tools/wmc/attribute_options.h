@@ -13,7 +13,7 @@ namespace wavemesh::tool {
 
 struct AttributeOptions
 {
-	std::string kept = "colour,quality,radius,texcoord,polygons";
+	std::string kept = "colour,quality,radius,texcoord,polygons,custom";
 	std::string bits;
 
 	void addTo(CLI::App& command);

@@ -38,15 +38,14 @@ void CodecOptions::addTo(CLI::App& command)
 	    ->check(CLI::PositiveNumber)
 	    ->excludes(bitsOption)
 	    ->group(group);
-	auto* modeOption = command
-	                       .add_option(
-	                           "--mode", mode,
-	                           "Coding mode: compact makes positions more precise as the mesh gets "
-	                           "denser, and the "
-	                           "file smaller; classic is the method of the paper")
-	                       ->check(CLI::IsMember({"compact", "classic"}))
-	                       ->capture_default_str()
-	                       ->group(group);
+	command
+	    .add_option(
+	        "--mode", mode,
+	        "Coding mode: compact makes positions more precise as the mesh gets denser, and the "
+	        "file smaller; classic is the method of the paper")
+	    ->check(CLI::IsMember({"compact", "classic"}))
+	    ->capture_default_str()
+	    ->group(group);
 	command
 	    .add_option(
 	        "--effort", effort,
@@ -59,11 +58,9 @@ void CodecOptions::addTo(CLI::App& command)
 	command
 	    .add_option(
 	        "--lifting", lifting,
-	        "Classic: update step of the wavelet: off (lazy filter bank), or the k of its k-disc "
-	        "support")
+	        "Update step of the wavelet, of --mode classic only: off (lazy filter bank), or the k "
+	        "of its k-disc support, 0 if not given")
 	    ->check(CLI::IsMember({"off", "0", "1", "2"}))
-	    ->needs(modeOption)
-	    ->capture_default_str()
 	    ->group(group);
 	command
 	    .add_option(
@@ -112,12 +109,15 @@ void CodecOptions::addTo(CLI::App& command)
 
 EncodeOptions CodecOptions::toEncodeOptions() const
 {
+	if (mode == "compact" && !lifting.empty() && lifting != "off")
+		throw UsageError(
+		    "--lifting " + lifting + " is for --mode classic; compact files have no lifting");
 	EncodeOptions o;
 	o.mode         = mode == "classic" ? Mode::Classic : Mode::Compact;
 	o.bits         = bits;
 	o.step         = step;
 	o.effort       = effort;
-	o.lifting      = lifting == "off" ? kLiftingOff : lifting[0] - '0';
+	o.lifting      = lifting == "off" ? kLiftingOff : lifting.empty() ? 0 : lifting[0] - '0';
 	o.optimize     = optimize == "size"       ? Optimize::Size
 	                 : optimize == "balanced" ? Optimize::Balanced
 	                                          : Optimize::Levels;

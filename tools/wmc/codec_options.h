@@ -18,11 +18,11 @@ namespace wavemesh::tool {
 /// Options of encode, report and bench, as typed.
 struct CodecOptions
 {
-	int bits             = 12;
-	double step          = 0;
-	std::string mode     = "compact";
-	int effort           = 2;
-	std::string lifting  = "0";
+	int bits         = 12;
+	double step      = 0;
+	std::string mode = "compact";
+	int effort       = 2;
+	std::string lifting; ///< empty: not given
 	std::string optimize = "balanced";
 	std::string wgc      = "auto";
 	double sharpness     = 0.3;
@@ -31,6 +31,7 @@ struct CodecOptions
 	bool keepOrder       = false;
 
 	void addTo(CLI::App& command);
+	/// Throws UsageError where options contradict each other.
 	EncodeOptions toEncodeOptions() const;
 };
 

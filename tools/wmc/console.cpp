@@ -43,16 +43,24 @@ std::string formatted(const char* format, int digits, double x)
 
 } // namespace
 
+std::string visible(std::string text)
+{
+	for (char& c : text)
+		if ((c >= 0 && c < ' ') || c == 127)
+			c = '?';
+	return text;
+}
+
 void warn(const std::string& line)
 {
 	wipe();
-	std::fprintf(stderr, "wmc: warning: %s\n", line.c_str());
+	std::fprintf(stderr, "wmc: warning: %s\n", visible(line).c_str());
 }
 
 void printError(const std::string& line)
 {
 	wipe();
-	std::fprintf(stderr, "wmc: %s\n", line.c_str());
+	std::fprintf(stderr, "wmc: %s\n", visible(line).c_str());
 }
 
 ProgressLine::ProgressLine(std::string what) : what_(std::move(what)) {}
@@ -99,7 +107,7 @@ void Table::print() const
 			line += i == 0 ? row[i] + space : "  " + space + row[i];
 		}
 		line.erase(line.find_last_not_of(' ') + 1);
-		std::puts(line.c_str());
+		std::puts(visible(line).c_str());
 	}
 }
 

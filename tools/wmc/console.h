@@ -10,6 +10,9 @@
 
 namespace wavemesh::tool {
 
+/// With no character that a terminal takes for a command: names come from files.
+std::string visible(std::string text);
+
 /// One line on stderr, after the progress line was wiped.
 void warn(const std::string& line);
 void printError(const std::string& line);

@@ -15,6 +15,14 @@ namespace wavemesh::tool {
 
 namespace {
 
+std::string joined(const std::vector<std::string>& names)
+{
+	std::string list;
+	for (const std::string& name : names)
+		list += (list.empty() ? "" : ", ") + name;
+	return list;
+}
+
 struct Encode
 {
 	std::string in, out;
@@ -27,10 +35,14 @@ struct Encode
 		std::error_code ignored;
 		if (std::filesystem::equivalent(in, out, ignored))
 			throw UsageError(out + ": this is the mesh to encode; name another file to write");
-		MeshData mesh = loadMesh(in, attributes.channels());
+		const EncodeOptions options = codec.toEncodeOptions();
+		std::vector<std::string> notRead;
+		MeshData mesh = loadMesh(in, attributes.channels(), &notRead);
+		if (!notRead.empty())
+			warn(in + ": not kept: " + joined(notRead));
 		attributes.setBits(mesh, codec.exact);
 		double seconds = 0, back = 0;
-		const EncodedMesh file = encodeMesh(in, mesh, codec.toEncodeOptions(), &seconds);
+		const EncodedMesh file = encodeMesh(in, mesh, options, &seconds);
 		// Nothing is written that does not decode.
 		if (const auto decoded = decodeBytes(out, file.bytes, ofOwnFile(), &back); !decoded.ok())
 			throw Failure(messageOf(out, decoded.status()));
@@ -76,11 +88,9 @@ struct Decode
 			warn(
 			    messageOf(in, decoded.status()) + "; wrote level " +
 			    std::to_string(decoded->level) + " of " + std::to_string(info.finestLevel()));
-		std::string notHeld;
-		for (const std::string& name : saveMesh(decoded->mesh, out))
-			notHeld += (notHeld.empty() ? "" : ", ") + name;
+		const std::vector<std::string> notHeld = saveMesh(decoded->mesh, out);
 		if (!notHeld.empty())
-			warn(out + ": this format cannot hold " + notHeld);
+			warn(out + ": this format cannot hold " + joined(notHeld));
 		if (json) {
 			Json j = {{"file", in}};
 			j.update(toJson(info));

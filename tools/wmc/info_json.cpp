@@ -84,7 +84,7 @@ static void printAttributes(const StreamInfo& info)
 		     fixed(bitsPerVertex(a.bytes, info.vertices), 2)});
 	table.print();
 	for (const std::string& name : info.textures)
-		std::printf("texture %s\n", name.c_str());
+		std::printf("texture %s\n", visible(name).c_str());
 }
 
 void printInfo(const StreamInfo& info)
@@ -132,7 +132,8 @@ void printInfo(const StreamInfo& info)
 
 void printJson(const Json& object)
 {
-	std::puts(object.dump(1, '\t').c_str());
+	// Names from files may be in any encoding.
+	std::puts(object.dump(1, '\t', false, Json::error_handler_t::replace).c_str());
 }
 
 } // namespace wavemesh::tool

@@ -224,16 +224,17 @@ std::vector<std::uint32_t> facesByRarity(const Coloured& a, const Groups& groups
 
 bool layComponent(Matcher& matcher, std::uint32_t f, std::vector<std::uint32_t>& candidates)
 {
-	// What is taken stays taken: forget it for good.
-	candidates.erase(
-	    std::remove_if(
-	        candidates.begin(), candidates.end(),
-	        [&](std::uint32_t g) { return matcher.isTaken(g); }),
-	    candidates.end());
-	for (std::uint32_t g : candidates)
+	for (std::size_t i = 0; i < candidates.size();) {
+		if (matcher.isTaken(candidates[i])) { // and stays taken: forget it for good
+			candidates[i] = candidates.back();
+			candidates.pop_back();
+			continue;
+		}
 		for (std::uint32_t turn = 0; turn < 3; ++turn)
-			if (matcher.lay(f, g, turn))
+			if (matcher.lay(f, candidates[i], turn))
 				return true;
+		++i;
+	}
 	return false;
 }
 

@@ -6,6 +6,7 @@
 #include "file_io.h"
 #include "full_mesh.h"
 #include "mesh_guard.h"
+#include "ply_properties.h"
 
 #include <wavemesh/vcg_attributes.h>
 #include <wavemesh/vcg_wmc.h>
@@ -85,6 +86,16 @@ private:
 	std::filesystem::path before_;
 };
 
+/// The importer of PLY gives a polygon's transparency and normal to the first triangle only.
+void completePolygons(FullMesh& m)
+{
+	for (std::size_t f = 1; f < m.face.size(); ++f)
+		if (m.face[f].IsF(0)) {
+			m.face[f].C() = m.face[f - 1].C();
+			m.face[f].N() = m.face[f - 1].N();
+		}
+}
+
 /// What VCGLib's importer says: empty, or why the mesh is refused.
 /// @param mask  [out] what the file has, bits of vcg::tri::io::Mask
 std::string import(FullMesh& m, const std::string& path, Format format, int& mask)
@@ -92,6 +103,8 @@ std::string import(FullMesh& m, const std::string& path, Format format, int& mas
 	switch (format) {
 	case Format::Ply: {
 		const int error = io::ImporterPLY<FullMesh>::Open(m, path.c_str(), mask, showImport);
+		if (mask & io::Mask::IOM_BITPOLYGONAL)
+			completePolygons(m);
 		return error ? io::ImporterPLY<FullMesh>::ErrorMsg(error) : "";
 	}
 	case Format::Obj: {
@@ -164,6 +177,21 @@ unsigned channelsIn(const FullMesh& m, int mask, Format format)
 	return channels;
 }
 
+/// As many as there is room for; the others are not read.
+void addOwn(PlyProperties& own, MeshData& mesh)
+{
+	constexpr std::size_t kMost = 64;
+	for (Attribute& a : own.attributes) {
+		const bool ofFace      = a.of == AttributeOf::Face;
+		const std::size_t rows = ofFace ? mesh.triangles.size() : mesh.positions.size();
+		if (mesh.attributes.size() < kMost && a.name.size() < 256 &&
+		    a.values.size() == rows * std::size_t(a.components))
+			mesh.attributes.push_back(std::move(a));
+		else
+			own.notRead.push_back((ofFace ? "face '" : "vertex '") + a.name + "'");
+	}
+}
+
 } // namespace
 
 Format formatOf(const std::string& path)
@@ -179,16 +207,19 @@ Format formatOf(const std::string& path)
 	                     : Format::Unknown;
 }
 
-MeshData loadMesh(const std::string& path, unsigned channels)
+MeshData loadMesh(const std::string& path, unsigned channels, std::vector<std::string>* notRead)
 {
 	const Format format = formatOf(path);
 	MeshData mesh;
+	PlyProperties own;
 	{
 		const Bytes file = readFile(path);
 		if (file.empty())
 			throw Failure(path + ": the file is empty");
 		if (const std::string wrong = whatIsWrong(file, format); !wrong.empty())
 			throw Failure(path + ": cannot be read as a mesh: " + wrong);
+		if (format == Format::Ply && (channels & kCustom))
+			own = readPlyProperties(file);
 	}
 	FullMesh m;
 	ProgressLine line("reading " + path);
@@ -200,7 +231,11 @@ MeshData loadMesh(const std::string& path, unsigned channels)
 		throw Failure(path + ": cannot be read as a mesh: " + wrong);
 	mesh = toMeshData(m);
 	addAttributes(m, channels & channelsIn(m, mask, format), mesh);
-	if (mesh.positions.empty())
+	addOwn(own, mesh);
+	if (notRead)
+		*notRead = own.notRead;
+	// A PLY or OFF may say that it has none; in another file they were not understood.
+	if (mesh.positions.empty() && format != Format::Ply && format != Format::Off)
 		throw Failure(path + ": there are no vertices in it");
 	return mesh;
 }

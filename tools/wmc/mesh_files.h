@@ -18,7 +18,9 @@ Format formatOf(const std::string& path);
 /// one vertex. Polygons are cut into triangles. Throws Failure, also where a file is damaged.
 /// @param channels  of Channel (wavemesh/vcg_attributes.h): attributes that are taken if the file
 ///                  has them
-MeshData loadMesh(const std::string& path, unsigned channels = 0);
+/// @param notRead   [out] if not null and kCustom is taken: what else a PLY has, in a user's words
+MeshData loadMesh(
+    const std::string& path, unsigned channels = 0, std::vector<std::string>* notRead = nullptr);
 
 /// Throws UsageError if no mesh can be written under this name.
 void checkMeshFormat(const std::string& path);

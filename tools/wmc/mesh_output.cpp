@@ -4,6 +4,7 @@
 #include "file_io.h"
 #include "full_mesh.h"
 #include "mesh_files.h"
+#include "ply_properties.h"
 
 #include <wavemesh/vcg_attributes.h>
 #include <wavemesh/vcg_wmc.h>
@@ -241,7 +242,9 @@ std::size_t lengthOfPly(const std::string& path)
 		if (what == "element")
 			count = std::stoul(name);
 		else if (what == "property" && type == "list") // of indices, of texture coordinates
-			length += count * (line.find("texcoord") != line.npos ? 1 + 6 * 4 : 1 + 3 * 4);
+			length += count * (line.find(" float texcoord") != line.npos ? 1 + 6 * 4
+			                   : line.find(" double ") != line.npos      ? 1 + 3 * 8
+			                                                             : 1 + 3 * 4);
 		else if (what == "property")
 			length += count * (type == "double" ? 8 : type == "uchar" ? 1 : 4);
 	}
@@ -266,23 +269,81 @@ int maskOf(unsigned channels)
 	return mask;
 }
 
+/// Can a PLY have it as a property of its own, and will reading give it back?
+bool isOwnProperty(const MeshData& mesh, const Attribute& a)
+{
+	constexpr std::size_t kLongest = 100;
+	const auto isFirst             = [&](const Attribute& b) {
+        return b.of == a.of && b.kind == a.kind && b.name == a.name;
+	};
+	const auto isVisible = [](char c) { return c > ' ' && c <= '~'; };
+	return a.kind == AttributeKind::Custom &&
+	       (a.of == AttributeOf::Vertex || a.of == AttributeOf::Face) &&
+	       (a.components == 1 || (a.components == 3 && a.type != NumberType::Integer)) &&
+	       !a.name.empty() && a.name.size() <= kLongest &&
+	       std::all_of(a.name.begin(), a.name.end(), isVisible) && !isNameInPly(a.of, a.name) &&
+	       &*std::find_if(mesh.attributes.begin(), mesh.attributes.end(), isFirst) == &a;
+}
+
+/// Whole numbers, which setAttributes() has as doubles, as ints under another name.
+/// @return the name
+std::string addAsInts(const Attribute& a, FullMesh& m)
+{
+	using Allocator        = vcg::tri::Allocator<FullMesh>;
+	const std::string name = "int " + a.name;
+	const auto set         = [&](auto handle) {
+        for (std::size_t i = 0; i < a.values.size(); ++i)
+            handle[i] = static_cast<int>(a.values[i]);
+	};
+	if (a.of == AttributeOf::Vertex)
+		set(Allocator::AddPerVertexAttribute<int>(m, name));
+	else
+		set(Allocator::AddPerFaceAttribute<int>(m, name));
+	return name;
+}
+
+/// @pre setAttributes(mesh, m)
+void addOwnProperties(const MeshData& mesh, FullMesh& m, io::PlyInfo& ply)
+{
+	const auto isInt = [](double x) { return x >= -2147483648.0 && x <= 2147483647.0; };
+	for (const Attribute& a : mesh.attributes) {
+		if (!isOwnProperty(mesh, a))
+			continue;
+		const bool whole =
+		    a.type == NumberType::Integer && std::all_of(a.values.begin(), a.values.end(), isInt);
+		const auto type      = whole                         ? vcg::ply::T_INT
+		                       : a.type == NumberType::Float ? vcg::ply::T_FLOAT
+		                                                     : vcg::ply::T_DOUBLE;
+		const std::string in = whole ? addAsInts(a, m) : a.name;
+		const bool ofVertex  = a.of == AttributeOf::Vertex;
+		if (a.components == 3)
+			ply.addPerElemPointAttribute(ofVertex ? 0 : 1, type, in, a.name);
+		else
+			ply.addPerElemScalarAttribute(
+			    ofVertex ? io::PlyInfo::PlyElemVertex : io::PlyInfo::PlyElemFace, type, in, a.name);
+	}
+}
+
 /// PLY and STL by VCGLib. Its exporters do not see a disk that is full when they close the file:
 /// the length tells.
-void writeBinary(const MeshData& mesh, const OutputFile& out, bool isStl)
+void writeBinary(const MeshData& mesh, const std::string& path, const OutputFile& out, bool isStl)
 {
 	FullMesh m;
 	fromMeshData(mesh, m);
 	setAttributes(mesh, m);
+	io::PlyInfo ply;
+	ply.mask = maskOf(channelsOf(mesh));
+	if (!isStl)
+		addOwnProperties(mesh, m, ply);
 	const int error        = isStl ? io::ExporterSTL<FullMesh>::Save(m, out.path().c_str())
-	                               : io::ExporterPLY<FullMesh>::Save(
-	                                     m, out.path().c_str(), maskOf(channelsOf(mesh)), true);
+	                               : io::ExporterPLY<FullMesh>::Save(m, out.path().c_str(), true, ply);
 	const std::size_t want = isStl ? 84 + 50 * mesh.triangles.size() : lengthOfPly(out.path());
 	if (error || want == 0 || fileSize(out.path()) != want)
-		throw Failure("the mesh could not be written whole; is the disk full?");
+		throw Failure(path + ": the mesh could not be written whole; is the disk full?");
 }
 
 /// Can a file of this format hold the attribute?
-bool holds(Format format, const Attribute& a)
+bool holds(Format format, const MeshData& mesh, const Attribute& a)
 {
 	const bool ofVertex = a.of == AttributeOf::Vertex;
 	switch (a.kind) {
@@ -297,6 +358,8 @@ bool holds(Format format, const Attribute& a)
 	case AttributeKind::Quality:
 	case AttributeKind::Radius:
 		return format == Format::Ply;
+	case AttributeKind::Custom:
+		return format == Format::Ply && isOwnProperty(mesh, a);
 	default:
 		return false;
 	}
@@ -306,7 +369,7 @@ std::vector<std::string> whatIsNotHeld(const MeshData& mesh, Format format)
 {
 	std::vector<std::string> names;
 	for (const Attribute& a : mesh.attributes)
-		if (!holds(format, a))
+		if (!holds(format, mesh, a))
 			names.push_back(nameOf(a.of, a.kind, a.name));
 	return names;
 }
@@ -329,7 +392,7 @@ std::vector<std::string> saveMesh(const MeshData& mesh, const std::string& path)
 	else if (format == Format::Off)
 		writeOff(mesh, out);
 	else
-		writeBinary(mesh, out, format == Format::Stl);
+		writeBinary(mesh, path, out, format == Format::Stl);
 	out.commit();
 	if (format == Format::Obj && isTextured(mesh))
 		writeMaterials(mesh, path);

@@ -37,10 +37,13 @@ struct Report
 
 	std::vector<metrics::Configuration> configurations() const
 	{
-		const EncodeOptions base = codec.toEncodeOptions();
-		if (configs)
-			return metrics::comparedConfigurations(base);
-		return {{nameOf(base), base}};
+		if (!configs) {
+			const EncodeOptions base = codec.toEncodeOptions();
+			return {{nameOf(base), base}};
+		}
+		CodecOptions ofAll = codec;
+		ofAll.mode         = "classic"; // of three of them
+		return metrics::comparedConfigurations(ofAll.toEncodeOptions());
 	}
 
 	static Run measure(
@@ -66,7 +69,8 @@ struct Report
 
 	int run() const
 	{
-		MeshData mesh = loadMesh(in, attributes.channels());
+		const auto wanted = configurations();
+		MeshData mesh     = loadMesh(in, attributes.channels());
 		attributes.setBits(mesh, codec.exact);
 		if (mesh.triangles.empty())
 			throw Failure(in + ": there are no faces in it to measure distances from");
@@ -74,7 +78,7 @@ struct Report
 		    samples ? samples : std::max<std::size_t>(100000, mesh.triangles.size());
 		const DistanceMeter meter(mesh, n);
 		std::vector<Run> all;
-		for (const auto& configuration : configurations())
+		for (const auto& configuration : wanted)
 			all.push_back(measure(configuration, in, mesh, meter));
 		if (!csv.empty())
 			writeCsv(all, meter.diagonal());

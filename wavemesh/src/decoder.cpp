@@ -1,111 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "container/container.h"
+// The way through a file: chunk by chunk, level by level, and what follows them.
+#include "decoder_state.h"
 #include "finish/finish.h"
 #include "level_work.h"
-#include "multires/refine.h"
 #include "predict/shown_positions.h"
 #include "stage.h"
-#include "syntax/base_syntax.h"
-#include "syntax/connectivity_syntax.h"
-#include "syntax/detail_syntax.h"
-#include "syntax/position_syntax.h"
-#include "wavelet/lifting.h"
-
-#include <wavemesh/codec.h>
 
 #include <new>
-#include <optional>
 
 namespace wavemesh {
-
-struct Decoder::State
-{
-	const std::uint8_t* data = nullptr;
-	std::size_t size         = 0;
-	Head head;
-	StreamInfo info;
-
-	int level = -1;
-	CornerTable table;
-	std::vector<LatticePoint> positions; ///< cells of the level's precision
-	Parents lastParents; ///< compact, below the finest split: of the last split's new vertices
-	Glue glue;           ///< of the base mesh
-	std::unique_ptr<AttributeReader> attributes; ///< if the file has any
-	std::optional<MeshData> finished; ///< level J with what follows it, as far as it came
-	Status stopped;                   ///< not ok: no further level can come
-	Progress progress;                ///< of the level being read
-	bool cancelled = false;
-
-	std::size_t offset = 0; ///< of the next chunk
-	Chunk chunk;            ///< the one being read
-	RangeDecoder coder;
-	// Megabytes: made for the first refinement that needs them.
-	std::unique_ptr<ConnectivityModels> connectivityModels;
-	std::unique_ptr<DetailModels> detailModels;
-	std::unique_ptr<CompactModels> compactModels;
-
-	const LevelRow& row(int l) const { return head.rows[std::size_t(l)]; }
-
-	Status nextChunk(const std::string& what, std::uint8_t type);
-	Status openChunk();
-	Status openFeature(Feature feature);
-	Status readBase();
-	Status readSplit();
-	Status readDetails(const Refinement& refinement);
-	Status readChildren(const Refinement& refinement, const CornerTable& child);
-	Status readPrecise();
-	Status finish();
-	Status advance();
-	bool goesOn(double fraction);
-	Progress watched(double from);
-	Status ended(const char* where) const;
-	Status corrupt(const std::string& what) const;
-	Status wrongSize(std::uint32_t found, const char* elements, std::uint32_t declared) const;
-};
 
 namespace {
 
 /// So many faces may be in any number of levels.
 constexpr std::uint64_t kFewFaces = 1000;
 
-std::string levelName(int level)
-{
-	return "level " + std::to_string(level);
-}
-
 } // namespace
-
-/// The decoder ran out of bytes: because the file is cut, or because it lies.
-Status Decoder::State::ended(const char* where) const
-{
-	const std::string place = std::string("inside ") + where + " of " + levelName(level + 1);
-	if (chunk.whole)
-		return {
-		    StatusCode::Corrupt, "the data end " + place + " although the chunk is whole",
-		    chunk.end};
-	return {
-	    StatusCode::Truncated,
-	    "the file ends " + place + " (" + std::to_string(size) + " of " +
-	        std::to_string(info.bytes) + " bytes)",
-	    size};
-}
-
-Status Decoder::State::corrupt(const std::string& what) const
-{
-	return {
-	    StatusCode::Corrupt,
-	    levelName(level + 1) + " " + what + " (chunk at offset " +
-	        std::to_string(std::size_t(chunk.payload - data)) + ")",
-	    std::uint64_t(chunk.payload - data)};
-}
-
-Status
-Decoder::State::wrongSize(std::uint32_t found, const char* elements, std::uint32_t declared) const
-{
-	return corrupt(
-	    "has " + std::to_string(found) + " " + elements + " but the head declares " +
-	    std::to_string(declared));
-}
 
 /// Finds the next chunk that must not be skipped, which must be of this type.
 Status Decoder::State::nextChunk(const std::string& what, std::uint8_t type)
@@ -148,141 +58,6 @@ Status Decoder::State::openChunk()
 		    before};
 	coder = RangeDecoder(chunk.payload, chunk.size);
 	return {};
-}
-
-Status Decoder::State::readBase()
-{
-	auto base =
-	    BaseSyntax<RangeDecoder>(coder, head.lattice.bits - row(0).shift, head.has(kRestoration))
-	        .read(row(0).vertices, row(0).faces);
-	if (!base.ok())
-		return base.status().code == StatusCode::Truncated ? ended("the base mesh") : base.status();
-	// Everything that follows relies on cells being cells.
-	if (head.mode == Mode::Compact) {
-		const std::int32_t end = 1 << (head.lattice.bits - row(0).shift);
-		for (const LatticePoint& p : base->positions)
-			for (const std::int32_t x : p)
-				if (x < 0 || x >= end)
-					return corrupt("has a vertex outside the lattice");
-	}
-	table     = std::move(base->table);
-	positions = std::move(base->positions);
-	glue      = std::move(base->glue);
-	if (head.has(kAttributes)) {
-		attributes = std::make_unique<AttributeReader>(head);
-		attributes->base(coder, table, glue);
-		if (coder.exhausted())
-			return ended("the attributes");
-	}
-	level = 0;
-	return {};
-}
-
-Status Decoder::State::readSplit()
-{
-	const LevelRow& target = row(level + 1);
-	Refinement refinement;
-	if (!connectivityModels)
-		connectivityModels =
-		    std::make_unique<ConnectivityModels>(head.rich ? Contexts::Rich : Contexts::Fast);
-	ConnectivitySyntax<RangeDecoder>(coder, *connectivityModels, table, positions).code(refinement);
-	if (coder.exhausted())
-		return ended("the connectivity");
-	if (head.mode == Mode::Classic && !goesOn(kConnectivityWork))
-		return wavemesh::cancelled();
-	if (refinement.childVertices != target.vertices)
-		return wrongSize(refinement.childVertices, "vertices", target.vertices);
-	CornerTable child = refine(table, refinement);
-	if (child.faceCount() != target.faces)
-		return wrongSize(child.faceCount(), "faces", target.faces);
-	Status status =
-	    head.mode == Mode::Classic ? readDetails(refinement) : readChildren(refinement, child);
-	if (status.ok() || status.code == StatusCode::Truncated) {
-		if (attributes)
-			attributes->split(coder, table, child, refinement, parentsOf(table, refinement));
-		if (status.ok() && coder.exhausted())
-			status = ended("the attributes");
-		table = std::move(child);
-		++level;
-	}
-	return status;
-}
-
-/// Classic: details, and the filter bank.
-Status Decoder::State::readDetails(const Refinement& refinement)
-{
-	const Parents parents = parentsOf(table, refinement);
-	UpdateWeights weights = updateWeights(table, refinement, parents, head.lifting);
-	keepStill(glue, weights);
-	std::vector<LatticePoint> details(parents.size(), {0, 0, 0});
-	if (!detailModels)
-		detailModels = std::make_unique<DetailModels>();
-	DetailSyntax<RangeDecoder>(coder, *detailModels, table, refinement, positions).code(details);
-	const Status cut = coder.exhausted() ? ended("the details") : Status();
-	if (cut.ok() || cut.code == StatusCode::Truncated)
-		synthesise(parents, weights, details, positions);
-	return cut;
-}
-
-/// Compact: the cells of the new vertices.
-Status Decoder::State::readChildren(const Refinement& refinement, const CornerTable& child)
-{
-	lastParents = parentsOf(table, refinement);
-	if (!compactModels)
-		compactModels = std::make_unique<CompactModels>(head.predictors);
-	positions.resize(child.vertexCount, {0, 0, 0});
-	withPositionSyntax<RangeDecoder>(
-	    head.predictors,
-	    [&](auto syntax) {
-		    syntax.watch(watched(kConnectivityWork));
-		    syntax.codeChildren(table, refinement, lastParents, row(level + 1).shift, positions);
-	    },
-	    coder, *compactModels, child, head.lattice.bits, glue);
-	if (child.vertexCount == info.levels.back().vertices)
-		lastParents = {}; // no level is shown that needs them
-	if (cancelled)
-		return wavemesh::cancelled();
-	return coder.exhausted() ? ended("the positions") : Status();
-}
-
-/// Compact: more bits for every vertex.
-Status Decoder::State::readPrecise()
-{
-	if (!compactModels)
-		compactModels = std::make_unique<CompactModels>(head.predictors);
-	const int shift = row(level + 1).shift, bits = row(level).shift - shift;
-	const Index whole = withPositionSyntax<RangeDecoder>(
-	    head.predictors,
-	    [&](auto syntax) {
-		    syntax.watch(watched(0));
-		    return syntax.codeBits(shift, bits, positions, {});
-	    },
-	    coder, *compactModels, table, head.lattice.bits, glue);
-	if (cancelled)
-		return wavemesh::cancelled();
-	const Status cut = coder.exhausted() ? ended("the positions") : Status();
-	if (!cut.ok() && whole == 0) { // nothing new: the level before, as it was
-		for (LatticePoint& p : positions)
-			for (std::int32_t& x : p)
-				x >>= bits;
-		return cut;
-	}
-	if (cut.ok() || cut.code == StatusCode::Truncated)
-		++level;
-	return cut;
-}
-
-/// Tells the progress of the level, and remembers the answer.
-bool Decoder::State::goesOn(double fraction)
-{
-	cancelled = progress && !progress(fraction);
-	return !cancelled;
-}
-
-/// The progress of the rest of a level, from `from` on.
-Progress Decoder::State::watched(double from)
-{
-	return [this, from](double fraction) { return goesOn(from + (1 - from) * fraction); };
 }
 
 Status Decoder::State::advance()

@@ -7,7 +7,6 @@
 #include <wavemesh/codec.h>
 
 #include <algorithm>
-#include <limits>
 #include <new>
 #include <optional>
 
@@ -75,12 +74,8 @@ struct EncodingWork
 /// Cuts, and rounds to the lattice.
 Result<QuantisedMesh> prepare(const MeshData& mesh, const EncodeOptions& options)
 {
-	constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max() / 3;
-	if (const std::size_t n = std::max(mesh.positions.size(), mesh.triangles.size()); n > kMost)
-		return Status(
-		    StatusCode::LimitExceeded,
-		    "the mesh has " + std::to_string(n) + " vertices or faces, more than the " +
-		        std::to_string(kMost) + " that a .wmc can hold: split it");
+	if (Status s = checkCounts(mesh.positions.size(), mesh.triangles.size()); !s.ok())
+		return s;
 	const auto& finite = options.exact ? finitePositions(mesh.positions) : mesh.positions;
 	const auto lattice = makeLattice(finite, options.bits, options.step);
 	if (!lattice.ok())

@@ -3,6 +3,7 @@
 
 #include "container/byte_io.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace wavemesh {
@@ -79,7 +80,8 @@ Index AttributeLevels::usual(const Level& fine, const Descent& descent, Index fi
 struct AttributeLevels::Seams
 {
 	Fans fans;
-	std::vector<Index> chart; ///< #F_J: the same number for all faces of a piece
+	std::vector<Index> chart;   ///< #F_J: the same number for all faces of a piece
+	std::vector<Index> byChart; ///< corners of each fan by charts: hubs may have very many
 
 	explicit Seams(const CornerTable& finest) : fans(finest), chart(finest.faceCount())
 	{
@@ -91,13 +93,25 @@ struct AttributeLevels::Seams
 			f = chart[f] = chart[chart[f]];
 		return f;
 	}
-	/// The first corner at v with a row of this chart, or kNone.
+	/// Once it is known which faces belong together.
+	void close()
+	{
+		for (Index f = 0; f < chart.size(); ++f)
+			chart[f] = root(f);
+		byChart       = fans.corner;
+		const auto at = [&](Index i) { return byChart.begin() + std::ptrdiff_t(fans.begin[i]); };
+		for (Index v = 0; v + 1 < fans.begin.size(); ++v)
+			std::stable_sort(
+			    at(v), at(v + 1), [&](Index c, Index d) { return chart[c / 3] < chart[d / 3]; });
+	}
+	/// The first corner of the fan at v with a row of this chart, or kNone. @pre close()
 	Index find(Index v, Index wanted) const
 	{
-		for (Index j = fans.begin[v]; j < fans.begin[v + 1]; ++j)
-			if (chart[fans.corner[j] / 3] == wanted)
-				return fans.corner[j];
-		return kNone;
+		const auto end = byChart.begin() + std::ptrdiff_t(fans.begin[v + 1]);
+		const auto it  = std::lower_bound(
+		     byChart.begin() + std::ptrdiff_t(fans.begin[v]), end, wanted,
+		     [&](Index c, Index w) { return chart[c / 3] < w; });
+		return it != end && chart[*it / 3] == wanted ? *it : kNone;
 	}
 	/// Of the charts given, the first that all corners of a face have; else the first.
 	Index shared(const CornerTable& table, Index face, const std::vector<Index>& charts) const
@@ -127,8 +141,7 @@ void AttributeLevels::coarsen(const Levels& levels)
 		    sameRow(AttributeOf::Corner, corner_[prevCorner(c)], corner_[nextCorner(d)]))
 			seams.chart[seams.root(c / 3)] = seams.root(d / 3);
 	}
-	for (Index f = 0; f < finest.faceCount(); ++f)
-		seams.chart[f] = seams.root(f);
+	seams.close();
 
 	levels_.resize(levels.splits() + 1);
 	Level& last   = levels_.back();

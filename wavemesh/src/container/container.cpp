@@ -12,7 +12,6 @@ namespace {
 constexpr std::uint8_t kMagic[8]         = {0x8b, 'W', 'M', 'C', '\r', '\n', 0x1a, '\n'};
 constexpr std::size_t kChecksumSize      = 4;
 constexpr std::uint32_t kMaxLevels       = 4096;
-constexpr std::uint32_t kMaxElements     = 0x7fffffff / 3;          ///< corners are 32-bit indices
 constexpr std::uint64_t kMaxFeatureBytes = std::uint64_t {1} << 48; ///< sums stay below 2^64
 
 Status corruptHead(const char* why)
@@ -153,7 +152,7 @@ Status checkRows(const std::vector<LevelRow>& rows, int bits)
 		return corruptHead("the last level is open");
 	for (std::size_t i = 0; i < rows.size(); ++i) {
 		const LevelRow& row = rows[i];
-		if (row.vertices > kMaxElements || row.faces > kMaxElements ||
+		if (row.vertices > kMostElements || row.faces > kMostElements ||
 		    std::uint64_t(row.connectivityBytes) + row.attributeBytes > row.bytes)
 			return corruptHead("impossible counts in the level table");
 		if (i == 0) {
@@ -335,7 +334,8 @@ Result<Head> readHead(const std::uint8_t* data, std::size_t size, std::size_t& e
 		head.vertices = finest.vertices;
 		head.faces    = finest.faces;
 	}
-	else if (head.faces < finest.faces || head.vertices > kMaxElements || head.faces > kMaxElements)
+	else if (
+	    head.faces < finest.faces || head.vertices > kMostElements || head.faces > kMostElements)
 		return corruptHead("impossible counts of the original");
 	end = chunk->end;
 	return head;

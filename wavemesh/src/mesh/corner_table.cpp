@@ -3,6 +3,18 @@
 
 namespace wavemesh {
 
+Status checkCounts(std::size_t vertices, std::size_t faces)
+{
+	const bool tooManyVertices = vertices > kMostElements;
+	if (!tooManyVertices && faces <= kMostElements)
+		return {};
+	return {
+	    StatusCode::LimitExceeded,
+	    "the mesh has " + std::to_string(tooManyVertices ? vertices : faces) +
+	        (tooManyVertices ? " vertices" : " faces") + ", more than the " +
+	        std::to_string(kMostElements) + " that a .wmc can hold: split it"};
+}
+
 std::vector<Index> firstCorners(const CornerTable& table)
 {
 	std::vector<Index> first(table.vertexCount, kNone);

@@ -18,6 +18,7 @@
 #include <wavemesh/status.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,12 @@ using Index           = std::uint32_t;
 constexpr Index kNone = ~Index {0};
 /// Lattice point: integer multiples of the step.
 using LatticePoint = std::array<std::int32_t, 3>;
+
+/// Of vertices, and of faces: corners are 32-bit numbers with a sign to spare.
+constexpr std::size_t kMostElements = 0x7fffffff / 3;
+
+/// LimitExceeded, and what to do about it, for a mesh that no .wmc can hold.
+Status checkCounts(std::size_t vertices, std::size_t faces);
 
 inline Index nextCorner(Index c)
 {

@@ -364,25 +364,33 @@ private:
 			codeNew(coder, i, fans, v, expected);
 	}
 
-	/// Rows of the fan's corners before the k-th that differ from it and from each other, nearest
-	/// first; up to 4.
-	struct Others
+	/// Rows that differ, of the fan's corners so far, the last one's first.
+	template <std::size_t kMost>
+	struct Rows
 	{
-		std::array<const double*, 4> row;
+		std::array<const double*, kMost> row;
 		std::size_t count = 0;
 	};
-	Others
-	othersBefore(std::size_t i, const Fans& fans, Index begin, Index at, const double* not1) const
+	static constexpr std::size_t kOthers = 4;
+	using Others                         = Rows<kOthers>;
+	using Recent                         = Rows<kOthers + 1>; ///< one of them may not count
+
+	void remember(std::size_t i, const double* row, Recent& recent) const
+	{
+		std::size_t n = 0;
+		while (n < recent.count && !same(i, recent.row[n], row))
+			++n;
+		recent.count = std::max(recent.count, std::min(n + 1, recent.row.size()));
+		for (n = std::min(n, recent.row.size() - 1); n > 0; --n)
+			recent.row[n] = recent.row[n - 1];
+		recent.row[0] = row;
+	}
+	Others othersThan(std::size_t i, const double* not1, const Recent& recent) const
 	{
 		Others out;
-		for (Index j = at; j-- > begin && out.count < out.row.size();) {
-			const double* row = rowAt(i, fans.corner[j]);
-			bool isNew        = !not1 || !same(i, row, not1);
-			for (std::size_t n = 0; n < out.count; ++n)
-				isNew = isNew && !same(i, row, out.row[n]);
-			if (isNew)
-				out.row[out.count++] = row;
-		}
+		for (std::size_t n = 0; n < recent.count && out.count < out.row.size(); ++n)
+			if (!not1 || !same(i, recent.row[n], not1))
+				out.row[out.count++] = recent.row[n];
 		return out;
 	}
 
@@ -412,13 +420,16 @@ private:
 			alike              = alike && same(i, first, from);
 		}
 		flags.last = kept = codeBit(coder, flags.kept[flags.last + (alike ? 0 : 2)], kept);
+		Recent recent;
 		for (Index j = begin; j < end; ++j) {
 			const Index c       = fans.corner[j];
 			const NearRows rows = expected(c);
 			if (kept || codeBit(coder, flags.same[1], same(i, rowAt(i, c), rows.a)))
 				copyRow(i, c, rows.a);
 			else
-				codeOther(coder, i, c, othersBefore(i, fans, begin, j, rows.a), rows);
+				codeOther(coder, i, c, othersThan(i, rows.a, recent), rows);
+			if (!kept)
+				remember(i, rowAt(i, c), recent);
 		}
 	}
 
@@ -442,6 +453,8 @@ private:
 			flags.last = single =
 			    codeBit(coder, flags.single[flags.last + (alike ? 0 : 2)], single);
 		NearRows last = first;
+		Recent recent;
+		remember(i, rowAt(i, fans.corner[begin]), recent);
 		for (Index j = begin + 1; j < end; ++j) {
 			const Index c             = fans.corner[j];
 			const double* row         = rowAt(i, fans.corner[j - 1]);
@@ -450,7 +463,9 @@ private:
 			if (single || codeBit(coder, flags.same[context], same(i, rowAt(i, c), row)))
 				copyRow(i, c, row);
 			else
-				codeOther(coder, i, c, othersBefore(i, fans, begin, j, row), rows);
+				codeOther(coder, i, c, othersThan(i, row, recent), rows);
+			if (!single)
+				remember(i, rowAt(i, c), recent);
 			last = rows;
 		}
 	}

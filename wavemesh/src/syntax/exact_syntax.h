@@ -7,6 +7,8 @@
 #include "attributes/number_format.h"
 #include "entropy/models.h"
 
+#include <memory>
+
 namespace wavemesh {
 
 class ExactSyntax
@@ -62,7 +64,7 @@ private:
 			AdaptiveBit zero, negative;
 			std::array<AdaptiveBit, 64> length;
 		};
-		std::array<Row, 65> row;
+		std::array<std::unique_ptr<Row>, 65> row; ///< most lengths never occur
 		std::array<std::array<AdaptiveBit, 4>, 5> top;
 	};
 	struct Models
@@ -105,7 +107,10 @@ private:
 	codeDifference(Coder& coder, std::uint64_t difference, std::uint64_t reach, Rows& rows)
 	{
 		const int length = bitLength(reach);
-		auto& row        = rows.row[std::size_t(length)];
+		auto& place      = rows.row[std::size_t(length)];
+		if (!place)
+			place = std::make_unique<Rows::Row>();
+		auto& row = *place;
 		if (codeBit(coder, row.zero, difference == 0))
 			return 0;
 		const bool negative     = codeBit(coder, row.negative, difference >> 63 != 0);
@@ -139,7 +144,7 @@ private:
 	}
 
 	NumberFormat format_;
-	std::vector<Models> models_; ///< by channel; 40 kB each
+	std::vector<Models> models_; ///< by channel; 3 kB each, and 18 more at most
 };
 
 } // namespace wavemesh
