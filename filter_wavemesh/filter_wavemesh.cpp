@@ -82,6 +82,7 @@ FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshDocumen
 	const MeshModel none(-1, QString(), QString());
 	const MeshModel& layer = document.mm() != nullptr ? *document.mm() : none;
 	RichParameterList list;
+	ahead_ = nullptr;
 	switch (ID(action)) {
 	case FP_SIMPLIFY:
 		addTargetParameters(list, layer);

@@ -41,6 +41,19 @@ MeshLabHost::Results browse(MeshLabHost& host, int level)
 	return host.apply("Wavemesh: Browse Levels", {{"level", QString::number(level)}});
 }
 
+/// By a script, which asks no dialog for its parameters.
+MeshLabHost::Results browseByScript(MeshLabHost& host, int level)
+{
+	writeFile(
+	    scratch("browse.mlx"),
+	    QString("<!DOCTYPE FilterScript><FilterScript><filter name=\"Wavemesh: Browse Levels\">"
+	            "<Param name=\"level\" type=\"RichDynamicFloat\" value=\"%1\" min=\"0\" "
+	            "max=\"100\" description=\"\" tooltip=\"\"/></filter></FilterScript>")
+	        .arg(level)
+	        .toUtf8());
+	return host.run(scratch("browse.mlx")).front().results;
+}
+
 double rmsToLayer(MeshLabHost& host, const MeshModel& from, const MeshModel& to)
 {
 	const auto results = host.apply(
@@ -201,6 +214,40 @@ TEST(FilterWavemesh, NoEditOfALayerFromAFileIsUndoneByBrowsing)
 		}
 }
 
+TEST(FilterWavemesh, WhatTheDialogDecodesAheadIsForTheMeshThatItFoundOnly)
+{
+	MeshLabHost& host = freshHost();
+	for (const char* name : {"pretzel", "blob"}) {
+		host.open(sample(name + QString(".ply")));
+		host.save(scratch(name + QString(".wmc")));
+	}
+	const auto dialogOn = [&](const char* name) {
+		host.clear();
+		host.open(scratch(name + QString(".wmc")));
+		host.openDialog("Wavemesh: Browse Levels");
+	};
+	const auto verticesOfLevelTwo = [&] { return browseByScript(host, 2).at("vertices").toInt(); };
+	dialogOn("pretzel");
+	const int ofPretzel = verticesOfLevelTwo();
+
+	dialogOn("blob"); // and the layer goes away meanwhile
+	host.clear();
+	host.open(scratch("pretzel.wmc"));
+	EXPECT_EQ(verticesOfLevelTwo(), ofPretzel);
+
+	dialogOn("blob");
+	host.open(scratch("pretzel.wmc")); // another becomes the current one
+	EXPECT_EQ(verticesOfLevelTwo(), ofPretzel);
+
+	dialogOn("blob");
+	for (auto& v : host.mesh().cm.vert)
+		v.P() *= Scalarm(3);
+	const Shape edited(host.mesh());
+	browseByScript(host, 0);
+	browseByScript(host, -1);
+	EXPECT_TRUE(Shape(host.mesh()) == edited);
+}
+
 TEST(FilterWavemesh, ATransformationOfALayerStaysWithEveryLevel)
 {
 	MeshLabHost& first = freshHost();
@@ -214,6 +261,35 @@ TEST(FilterWavemesh, ATransformationOfALayerStaysWithEveryLevel)
 	for (const int level : {0, 2, -1}) {
 		browse(host, level);
 		EXPECT_EQ(host.mesh().cm.Tr, there) << level;
+	}
+}
+
+TEST(FilterWavemesh, LayersFromLevelsAreWhatTheLayerShowsThere)
+{
+	MeshLabHost& host = freshHost();
+	MeshModel& layer  = *host.open(sample("blob.ply")).front();
+	const int finest  = browse(host, 2).at("finest_level").toInt();
+	layer.updateDataMask(MeshModel::MM_VERTCOLOR);
+	for (auto& v : layer.cm.vert)
+		v.C() = vcg::Color4b(10, 20, 30, 255);
+	for (const int shown : {2, 3, finest}) {
+		SCOPED_TRACE(shown);
+		browse(host, shown);
+		host.apply("Wavemesh: Layers from Levels", {{"levels", "2, 3"}});
+		std::vector<MeshModel*> made;
+		for (MeshModel& m : host.document().meshIterator())
+			if (&m != &layer)
+				made.push_back(&m);
+		ASSERT_EQ(made.size(), 2u);
+		EXPECT_TRUE(made[0]->hasDataMask(MeshModel::MM_VERTCOLOR));
+		EXPECT_EQ(made[0]->cm.vert[1].cC(), vcg::Color4b(10, 20, 30, 255));
+		EXPECT_FALSE(made[1]->hasDataMask(MeshModel::MM_VERTCOLOR));
+		const Shape third(*made[1]);
+		for (MeshModel* m : made)
+			host.document().delMesh(m->id());
+		host.document().setCurrentMesh(layer.id());
+		browse(host, 3);
+		EXPECT_TRUE(Shape(layer) == third);
 	}
 }
 

@@ -170,13 +170,22 @@ MeshLabHost::Results MeshLabHost::apply(const QString& filter, const RichParamet
 	return results;
 }
 
-MeshLabHost::Results MeshLabHost::apply(const QString& filter, const Settings& settings)
+static RichParameterList parametersOf(const QString& filter, const MeshDocument& document)
 {
 	QAction* const action = plugins().filterAction(filter);
 	if (action == nullptr)
 		throw MLException("There is no filter " + filter);
-	RichParameterList parameters =
-	    plugins().getFilterPluginFromAction(action)->initParameterList(action, *document_);
+	return plugins().getFilterPluginFromAction(action)->initParameterList(action, document);
+}
+
+void MeshLabHost::openDialog(const QString& filter)
+{
+	parametersOf(filter, *document_);
+}
+
+MeshLabHost::Results MeshLabHost::apply(const QString& filter, const Settings& settings)
+{
+	RichParameterList parameters = parametersOf(filter, *document_);
 	set(parameters, settings);
 	return apply(filter, parameters);
 }

@@ -61,6 +61,8 @@ public:
 	/// What the plugins warned about while opening and saving since the last call.
 	QString takeWarnings();
 
+	/// Does what MeshLab does before the dialog of a filter appears, and no more.
+	void openDialog(const QString& filter);
 	/// Applies a filter, by the name it has in the menus, to the document.
 	Results apply(const QString& filter, const Settings& settings = {});
 	/// Runs a filter script. As in MeshLab a filter gets the parameters in the script and no
