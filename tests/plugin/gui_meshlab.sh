@@ -151,6 +151,7 @@ open_filter() {
 
 # find_slider PICTURE: of the dialog of Browse Levels, at its right end; sets slider_left slider_right
 # slider_y. It is where the dialog has most of the blue that fills its groove, as far as the handle.
+# shellcheck disable=SC2034 # read by those who source this
 find_slider() {
 	read -r slider_left slider_right slider_y < <(
 		convert "$1" -crop "$((WIDTH - 20))x$((HEIGHT - 200))+$((X + 10))+$((Y + 30))" -depth 8 txt:- |
