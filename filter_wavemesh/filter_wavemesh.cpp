@@ -14,6 +14,21 @@ using namespace wavemesh;
 
 namespace {
 
+/// Scripts do not ask isFilterApplicable().
+void requireFaces(const MeshModel* layer)
+{
+	if (layer == nullptr)
+		throw MLException("Wavemesh: there is no layer to work on: open a mesh first.");
+	if (layer->cm.vn == 0)
+		throw MLException(
+		    "Wavemesh: the layer " + layer->label() + " is empty: choose one with a mesh.");
+	if (layer->cm.fn == 0)
+		throw MLException(
+		    "Wavemesh: the layer " + layer->label() +
+		    " is a point cloud, and levels are made of faces. A filter such as 'Surface "
+		    "Reconstruction: Ball Pivoting' makes faces from points.");
+}
+
 /// As precise as files usually are.
 EncodeOptions reportOptions()
 {
@@ -120,8 +135,7 @@ std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
     vcg::CallBackPos* cb)
 {
 	return guarded([&]() -> Results {
-		if (document.mm() == nullptr)
-			throw MLException("There is no layer to work on.");
+		requireFaces(document.mm());
 		MeshModel& layer = *document.mm();
 		// Whatever the layer had before and after may have changed with its mesh.
 		postConditionMask = MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE;

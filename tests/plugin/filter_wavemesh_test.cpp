@@ -15,6 +15,9 @@ using namespace wavemesh::test;
 
 namespace {
 
+constexpr const char* kDetailFilters[] = {
+    "Wavemesh: Colour by Detail", "Wavemesh: Equalise Detail"};
+
 /// What must come back bit for bit: coordinates and faces, in their order.
 struct Shape
 {
@@ -341,7 +344,7 @@ TEST(FilterWavemesh, AMeshThatIsNoManifoldIsBrowsedAndSavedAndHasNoDetails)
 	MeshLabHost& host = freshHost();
 	host.open(scratch("fin.off"));
 	const Shape before(host.mesh());
-	for (const char* filter : {"Wavemesh: Colour by Detail", "Wavemesh: Equalise Detail"}) {
+	for (const char* filter : kDetailFilters) {
 		EXPECT_NE(messageOf([&] { host.apply(filter); }), QString()) << filter;
 		EXPECT_TRUE(Shape(host.mesh()) == before);
 	}
@@ -354,7 +357,35 @@ TEST(FilterWavemesh, AMeshThatIsNoManifoldIsBrowsedAndSavedAndHasNoDetails)
 	EXPECT_EQ(back.cm.fn, 3);
 }
 
-TEST(FilterWavemesh, AMeshThatCannotBeEncodedGivesAnErrorAndStaysAsItWas)
+TEST(FilterWavemesh, DetailsOfAMeshThatIsNoManifoldNameWhatIsWrongAndTheFilterAgainstIt)
+{
+	struct Case
+	{
+		const char *mesh, *says, *helps;
+	};
+	const Case cases[] = {
+	    {"OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n",
+	     "edge 0-1 is non-manifold", "Repair non Manifold Edges"},
+	    {"OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n3 0 1 2\n3 0 1 3\n", "oriented inconsistently",
+	     "Re-Orient all faces coherently"},
+	    {"OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 3 4\n",
+	     "vertex 0 is non-manifold", "Repair non Manifold Vertices by splitting"},
+	    {"OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n7 7 7\n3 0 1 2\n", "vertex 3 belongs to no face",
+	     "Remove Unreferenced Vertices"}};
+	for (const Case& wrong : cases) {
+		SCOPED_TRACE(wrong.says);
+		writeFile(scratch("wrong.off"), wrong.mesh);
+		for (const char* filter : kDetailFilters) {
+			MeshLabHost& host = freshHost();
+			host.open(scratch("wrong.off"));
+			const QString message = messageOf([&] { host.apply(filter); });
+			EXPECT_TRUE(message.contains(wrong.says)) << qPrintable(message);
+			EXPECT_TRUE(message.contains(wrong.helps)) << qPrintable(message);
+		}
+	}
+}
+
+TEST(FilterWavemesh, ALayerWithoutFacesGivesAnErrorAndStaysAsItWas)
 {
 	writeFile(scratch("points.off"), "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
 	for (const char* filter :
@@ -363,10 +394,17 @@ TEST(FilterWavemesh, AMeshThatCannotBeEncodedGivesAnErrorAndStaysAsItWas)
 	      "Wavemesh: Equalise Detail"}) {
 		SCOPED_TRACE(filter);
 		MeshLabHost& host = freshHost();
+		host.openDialog(filter); // without any layer
+		EXPECT_TRUE(messageOf([&] { host.applyUnchecked(filter); }).contains("open a mesh"));
 		host.open(scratch("points.off"));
-		EXPECT_NE(messageOf([&] { host.apply(filter); }), QString());
+		host.openDialog(filter);
+		EXPECT_TRUE(messageOf([&] { host.apply(filter); }).contains("Any Faces")) << "MeshLab's";
+		EXPECT_TRUE(messageOf([&] { host.applyUnchecked(filter); }).contains("is a point cloud"));
 		EXPECT_EQ(host.document().meshNumber(), 1u);
 		EXPECT_EQ(host.mesh().cm.vn, 3);
+		host.document().addNewMesh(QString(), "nothing");
+		host.openDialog(filter);
+		EXPECT_TRUE(messageOf([&] { host.applyUnchecked(filter); }).contains("is empty"));
 	}
 }
 

@@ -65,6 +65,9 @@ public:
 	void openDialog(const QString& filter);
 	/// Applies a filter, by the name it has in the menus, to the document.
 	Results apply(const QString& filter, const Settings& settings = {});
+	/// The same with nothing but the document, as MeshLab's own script runner does it: without a
+	/// look at what the filter needs.
+	void applyUnchecked(const QString& filter);
 	/// Runs a filter script. As in MeshLab a filter gets the parameters in the script and no
 	/// others.
 	std::vector<ScriptStep> run(const QString& script);
