@@ -179,6 +179,31 @@ TEST(EqualiseDetail, AThresholdBringsANoisyMeshCloserToTheCleanOne)
 	EXPECT_LT(rms(host, noisy, clean), 0.85 * before);
 }
 
+TEST(EqualiseDetail, AnEqualisedLayerFromAFileIsBrowsedAsItIs)
+{
+	MeshLabHost& host = freshHost();
+	host.open(sample("pretzel.ply"));
+	host.save(scratch("equalised.wmc"));
+	for (const bool browsedBefore : {false, true}) {
+		SCOPED_TRACE(browsedBefore);
+		host.clear();
+		MeshModel& layer  = *host.open(scratch("equalised.wmc")).front();
+		const auto browse = [&](const char* level) {
+			host.apply("Wavemesh: Browse Levels", {{"level", level}});
+		};
+		if (browsedBefore) {
+			browse("0");
+			browse("-1");
+		}
+		host.apply(kEqualise, gains(0));
+		const Everything smooth(layer.cm);
+		browse("0");
+		browse("-1");
+		EXPECT_EQ(Everything(layer.cm).coordinates, smooth.coordinates);
+		EXPECT_EQ(Everything(layer.cm).faces, smooth.faces);
+	}
+}
+
 TEST(EqualiseDetail, GainsByLevelAreThoseOfTheirBands)
 {
 	MeshLabHost& host = freshHost();
