@@ -101,7 +101,7 @@ FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshDocumen
 	switch (ID(action)) {
 	case FP_SIMPLIFY:
 		addTargetParameters(list, layer);
-		addEncodeParameters(list, browsingOptions(), true);
+		addEncodeParameters(list, browsingOptions(), Offered::Method);
 		break;
 	case FP_BROWSE: {
 		const LevelRange range = levelRange(layer);

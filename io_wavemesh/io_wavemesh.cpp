@@ -265,8 +265,9 @@ IOWavemeshPlugin::initSaveParameter(const QString& format, const MeshModel& laye
 	if (const LayerStream* stream = findStream(layer.cm)) {
 		const auto info = readInfo(stream->bytes->data(), stream->bytes->size());
 		if (info.ok()) {
-			defaults.bits    = info->bits;
-			defaults.lifting = info->lifting;
+			defaults.bits = info->bits;
+			if (info->mode == Mode::Classic) // compact files have none
+				defaults.lifting = info->lifting;
 		}
 	}
 	list.addParam(RichEnum("preset", int(Preset::Custom), presetNames(), "Preset", presetHelp()));
