@@ -152,7 +152,7 @@ std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
 			return report(layer, parameters, cb);
 		case FP_COLOUR:
 			postConditionMask = MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR;
-			return colourByDetail(layer, parameters);
+			return colour(layer, parameters);
 		case FP_EQUALISE:
 			return equalise(layer, parameters, postConditionMask);
 		default:
@@ -172,6 +172,20 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::report(
 	for (const QString& file : report.writeFiles())
 		log(("Written: " + file).toStdString());
 	return report.results();
+}
+
+FilterWavemeshPlugin::Results
+FilterWavemeshPlugin::colour(MeshModel& layer, const RichParameterList& parameters)
+{
+	const Results results = colourByDetail(layer, parameters);
+	const auto number     = [&](const char* name) {
+        return QString::number(results.at(name).toDouble(), 'g', 3);
+	};
+	log(QString("Quality: %1 to %2, on average %3; the colours go from %4 to %5.")
+	        .arg(number("min"), number("max"), number("mean"))
+	        .arg(number("ramp_low"), number("ramp_high"))
+	        .toStdString());
+	return results;
 }
 
 FilterWavemeshPlugin::Results FilterWavemeshPlugin::equalise(

@@ -49,6 +49,7 @@ private:
 	browse(MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask);
 	Results makeLayers(MeshDocument& document, const RichParameterList& parameters);
 	Results report(MeshModel& layer, const RichParameterList& parameters, vcg::CallBackPos* cb);
+	Results colour(MeshModel& layer, const RichParameterList& parameters);
 	Results equalise(
 	    MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask);
 

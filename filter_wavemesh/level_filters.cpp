@@ -122,9 +122,10 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::browse(
     MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask)
 {
 	// No progress bar: it would let the slider's next event in while this one is being served.
-	const auto levels = levelsOf(layer);
-	const int level   = chosenLevel(parameters, levels->info(), levels->finest());
-	if (level == levels->shown())
+	const auto levels  = levelsOf(layer);
+	const int level    = chosenLevel(parameters, levels->info(), levels->finest());
+	const bool changes = level != levels->shown();
+	if (!changes)
 		postConditionMask = MeshModel::MM_NONE; // nothing to draw anew
 	levels->show(layer, level);
 	const StreamInfo& info = levels->info();
@@ -137,7 +138,8 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::browse(
 		nameLevelFile(layer, level, info.finestLevel());
 	showCard(levelCard({info, levels->finest(), level}, level));
 	const Shown shown {layer, info, level, levels->stream()->size()};
-	log(shown.sentence());
+	if (changes) // the slider moves on within a level
+		log(shown.sentence());
 	return shown.results();
 }
 

@@ -107,6 +107,24 @@ TEST(ColourByDetail, ColoursFollowMeshLabsRampFromRedToBlue)
 	}
 }
 
+TEST(ColourByDetail, GreenIsNeitherInsideNorOutside)
+{
+	MeshLabHost& host  = freshHost();
+	MeshModel& layer   = *host.open(sample("blob.ply")).front();
+	const auto results = host.apply(kColour, {{"measure", "1"}});
+	const auto low = results.at("ramp_low").toFloat(), high = results.at("ramp_high").toFloat();
+	ASSERT_GT(high, 0);
+	EXPECT_EQ(low, -high);
+	vcg::Color4b neither;
+	neither.SetColorRamp(low, high, 0.f);
+	EXPECT_EQ(neither, vcg::Color4b(0, 255, 0, 255));
+	for (const auto& v : layer.cm.vert) {
+		vcg::Color4b expected;
+		expected.SetColorRamp(low, high, float(v.cQ()));
+		ASSERT_EQ(v.cC(), expected);
+	}
+}
+
 TEST(EqualiseDetail, GainsOfOneLeaveTheLayerBitForBit)
 {
 	for (const char* name : {"pretzel.ply", "island.ply", "pieces.ply"}) {
