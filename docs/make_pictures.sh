@@ -17,6 +17,7 @@ mesh=$root/samples/pretzel.ply
 
 "$root/tests/plugin/gui_test.sh" "$build" "$root/samples/bracket.ply"
 "$root/tests/plugin/gui_filters_test.sh" "$build" "$mesh"
+"$root/tests/plugin/gui_texture_test.sh" "$build"
 cp "$build/gui/browse.png" "$images/browse.png"
 
 # small FILE NAME [ARGUMENTS...]: of the whole screen, in few colours
@@ -35,6 +36,9 @@ for name in before strong smooth; do
 done
 convert "$build"/gui-filters/cut-{smooth,before,strong}.png +append -resize 900x -dither None -colors 64 \
 	-define png:compression-level=9 "$images/tutorial-gains.png"
+
+convert "$build"/gui-texture/{coarse,fine}-view.png -crop 520x460+130+160 +repage +append -resize 900x -dither None \
+	-colors 96 -define png:compression-level=9 "$images/tutorial-texture.png"
 
 # The report's picture, by a filter script.
 work=$(mktemp -d)

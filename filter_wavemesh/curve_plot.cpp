@@ -10,8 +10,11 @@ namespace wavemesh {
 namespace {
 
 // In units of which the sheet is 600 wide: letters are readable if the picture has as many pixels.
-constexpr double kWidth = 600, kHeight = 420;
-constexpr double kLeft = 74, kRight = 18, kTop = 58, kBottom = 56;
+constexpr double kWidth = 600;
+constexpr double kLeft = 92, kRight = 18, kBottom = 56;
+constexpr double kDiagram    = 306; ///< height
+constexpr double kLegendLeft = 24, kLegendTop = 54, kLegendLine = 20, kLegendColumn = 266;
+constexpr int kLegendColumns = 2;
 constexpr double kTitle = 17, kText = 14, kSmall = 12.5;
 
 const QColor kAxisColour(0x30, 0x30, 0x30);
@@ -60,11 +63,14 @@ double niceStep(double range, int count)
 	return ten * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
 }
 
-/// Where values are on the sheet.
+/// Where values are on the sheet: below the legend.
 class Axes
 {
 public:
-	explicit Axes(const QVector<PlotCurve>& curves)
+	explicit Axes(const QVector<PlotCurve>& curves) :
+	        top_(
+	            kLegendTop + 10 +
+	            kLegendLine * ((curves.size() + kLegendColumns - 1) / kLegendColumns))
 	{
 		double low = 1e300, high = 0;
 		for (const PlotCurve& curve : curves)
@@ -77,13 +83,15 @@ public:
 			}
 		if (!(high > 0))
 			low = high = 1;
-		// Six decades at most: what is below is as good as exact.
-		low   = std::max(low, high * 1e-6);
+		// Five decades at most: what is below is as good as exact.
+		low   = std::max(low, high * 1e-5);
 		low_  = std::log10(low) - 0.1;
 		high_ = std::log10(high) + 0.1;
 		rate_ = (rate_ > 0 ? rate_ : 1) * 1.03;
 	}
 
+	double top() const { return top_; }
+	double bottom() const { return top_ + kDiagram; }
 	double rate() const { return rate_; }
 	double low() const { return low_; } ///< decades
 	double high() const { return high_; }
@@ -92,16 +100,18 @@ public:
 	{
 		const double decades = std::log10(std::max(error, 1e-300));
 		const double part    = (std::max(decades, low_) - low_) / (high_ - low_);
-		return kHeight - kBottom - part * (kHeight - kTop - kBottom);
+		return bottom() - part * kDiagram;
 	}
 
 private:
+	double top_;
 	double rate_ = 0, low_ = 0, high_ = 1;
 };
 
 void drawAxes(PlotSheet& sheet, const Axes& axes)
 {
-	const double left = axes.x(0), right = kWidth - kRight, top = kTop, bottom = kHeight - kBottom;
+	const double left = axes.x(0), right = kWidth - kRight;
+	const double top = axes.top(), bottom = axes.bottom();
 	const auto rule = [&](double error, const QColor& colour) {
 		sheet.polyline(
 		    {QPointF(left, axes.y(error)), QPointF(right, axes.y(error))}, {colour, 1, {}});
@@ -130,10 +140,10 @@ void drawAxes(PlotSheet& sheet, const Axes& axes)
 	    {QPointF(left, top), QPointF(left, bottom), QPointF(right, bottom)},
 	    {kAxisColour, 1.5, {}});
 	sheet.text(
-	    {(left + right) / 2, kHeight - 14},
+	    {(left + right) / 2, bottom + kBottom - 14},
 	    "bits per vertex of the original (whole file up to the level)", kText, TextAnchor::Middle);
 	sheet.text(
-	    {17, (top + bottom) / 2}, "RMS error, % of the diagonal", kText, TextAnchor::Middle, false,
+	    {14, (top + bottom) / 2}, "RMS error, % of the diagonal", kText, TextAnchor::Middle, false,
 	    true);
 }
 
@@ -151,25 +161,17 @@ void drawCurve(PlotSheet& sheet, const Axes& axes, const PlotCurve& curve, const
 		sheet.marker(markerAt({axes.x(level.x()), axes.y(level.y())}, look), look.colour, 1);
 }
 
-/// In the upper right corner, which falling curves leave empty.
+/// Above the diagram, where no curve goes.
 void drawLegend(PlotSheet& sheet, const QVector<PlotCurve>& curves)
 {
-	int longest = 0;
-	for (const PlotCurve& curve : curves)
-		longest = std::max(longest, curve.name.size());
-	const double line = 20, width = 62 + 0.56 * kSmall * longest;
-	const QRectF box(
-	    kWidth - kRight - width - 6, kTop + 6, width, line * double(curves.size()) + 8);
-	sheet.fill(box, Qt::white);
-	sheet.polyline(QPolygonF(box), {kGridColour, 1, {}});
+	constexpr double sample = 32;
 	for (int i = 0; i < curves.size(); ++i) {
 		const Look& look = looks()[i % looks().size()];
-		const double y   = box.top() + 4 + line * (i + 0.5);
-		sheet.polyline(
-		    {QPointF(box.left() + 8, y), QPointF(box.left() + 46, y)},
-		    {look.colour, 2.2, look.dashes});
-		sheet.marker(markerAt({box.left() + 27, y}, look), look.colour, 1);
-		sheet.text({box.left() + 54, y + 0.35 * kSmall}, curves[i].name, kSmall, TextAnchor::Left);
+		const double x   = kLegendLeft + i % kLegendColumns * kLegendColumn;
+		const double y   = kLegendTop + kLegendLine * (i / kLegendColumns + 0.5);
+		sheet.polyline({QPointF(x, y), QPointF(x + sample, y)}, {look.colour, 2.2, look.dashes});
+		sheet.marker(markerAt({x + sample / 2, y}, look), look.colour, 1);
+		sheet.text({x + sample + 7, y + 0.35 * kSmall}, curves[i].name, kSmall, TextAnchor::Left);
 	}
 }
 
@@ -182,10 +184,11 @@ void plotCurves(
     const QVector<PlotCurve>& curves,
     int width)
 {
-	const auto sheet = openPlotSheet(file, {kWidth, kHeight}, std::max(width, 100));
 	const Axes axes(curves);
-	sheet->text({kLeft, 24}, title, kTitle, TextAnchor::Left, true);
-	sheet->text({kLeft, 45}, subtitle, kSmall, TextAnchor::Left);
+	const QSizeF size(kWidth, axes.bottom() + kBottom);
+	const auto sheet = openPlotSheet(file, size, std::max(width, 100));
+	sheet->text({kLegendLeft, 24}, title, kTitle, TextAnchor::Left, true);
+	sheet->text({kLegendLeft, 45}, subtitle, kSmall, TextAnchor::Left);
 	drawAxes(*sheet, axes);
 	for (int i = 0; i < curves.size(); ++i)
 		drawCurve(*sheet, axes, curves[i], looks()[i % looks().size()]);

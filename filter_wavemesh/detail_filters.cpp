@@ -109,9 +109,9 @@ void addDetailParameters(RichParameterList& list)
 	    {"length of the detail", "normal component", "level of birth"}, "Quality",
 	    "What becomes the quality of a vertex. <b>length</b> of its detail, the wavelet "
 	    "coefficient: how far, in model units, it lies from where its parents predict it. "
-	    "<b>normal "
-	    "component</b>: how far it lies outside (above 0) or inside (below 0) of the coarser "
-	    "surface. <b>level of birth</b>: the coarsest level that has it, 0 is the base mesh."));
+	    "<b>normal component</b>: how far it lies outside (above 0, towards blue) or inside "
+	    "(below 0, towards red) of the coarser surface; green is neither. <b>level of birth</b>: "
+	    "the coarsest level that has it, 0 is the base mesh."));
 	list.addParam(RichEnum(
 	    "lifting", -kLiftingOff, {"off", "0-disc", "1-disc", "2-disc"}, "Lifting",
 	    "Coarse vertices are moved to make the coarse levels smoother and closer to the original, "
@@ -151,6 +151,10 @@ std::map<std::string, QVariant> colourByDetail(MeshModel& layer, const RichParam
 	    histogram.Percentile(0.9f) > histogram.Percentile(0.1f)) {
 		low  = histogram.Percentile(0.1f);
 		high = histogram.Percentile(0.9f);
+	}
+	if (measure == DetailMeasure::Normal) { // the same colour for "neither in nor out" everywhere
+		high = std::max(std::fabs(low), std::fabs(high));
+		low  = -high;
 	}
 	vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(layer.cm, low, high);
 	return {{"min", double(range.first)}, {"max", double(range.second)},

@@ -14,6 +14,21 @@ using namespace wavemesh;
 
 namespace {
 
+/// Scripts do not ask isFilterApplicable().
+void requireFaces(const MeshModel* layer)
+{
+	if (layer == nullptr)
+		throw MLException("Wavemesh: there is no layer to work on: open a mesh first.");
+	if (layer->cm.vn == 0)
+		throw MLException(
+		    "Wavemesh: the layer " + layer->label() + " is empty: choose one with a mesh.");
+	if (layer->cm.fn == 0)
+		throw MLException(
+		    "Wavemesh: the layer " + layer->label() +
+		    " is a point cloud, and levels are made of faces. A filter such as 'Surface "
+		    "Reconstruction: Ball Pivoting' makes faces from points.");
+}
+
 /// As precise as files usually are.
 EncodeOptions reportOptions()
 {
@@ -82,10 +97,11 @@ FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshDocumen
 	const MeshModel none(-1, QString(), QString());
 	const MeshModel& layer = document.mm() != nullptr ? *document.mm() : none;
 	RichParameterList list;
+	ahead_ = nullptr;
 	switch (ID(action)) {
 	case FP_SIMPLIFY:
 		addTargetParameters(list, layer);
-		addEncodeParameters(list, browsingOptions(), true);
+		addEncodeParameters(list, browsingOptions(), Offered::Method);
 		break;
 	case FP_BROWSE: {
 		const LevelRange range = levelRange(layer);
@@ -119,8 +135,7 @@ std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
     vcg::CallBackPos* cb)
 {
 	return guarded([&]() -> Results {
-		if (document.mm() == nullptr)
-			throw MLException("There is no layer to work on.");
+		requireFaces(document.mm());
 		MeshModel& layer = *document.mm();
 		// Whatever the layer had before and after may have changed with its mesh.
 		postConditionMask = MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE;
@@ -137,7 +152,7 @@ std::map<std::string, QVariant> FilterWavemeshPlugin::applyFilter(
 			return report(layer, parameters, cb);
 		case FP_COLOUR:
 			postConditionMask = MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR;
-			return colourByDetail(layer, parameters);
+			return colour(layer, parameters);
 		case FP_EQUALISE:
 			return equalise(layer, parameters, postConditionMask);
 		default:
@@ -157,6 +172,20 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::report(
 	for (const QString& file : report.writeFiles())
 		log(("Written: " + file).toStdString());
 	return report.results();
+}
+
+FilterWavemeshPlugin::Results
+FilterWavemeshPlugin::colour(MeshModel& layer, const RichParameterList& parameters)
+{
+	const Results results = colourByDetail(layer, parameters);
+	const auto number     = [&](const char* name) {
+        return QString::number(results.at(name).toDouble(), 'g', 3);
+	};
+	log(QString("Quality: %1 to %2, on average %3; the colours go from %4 to %5.")
+	        .arg(number("min"), number("max"), number("mean"))
+	        .arg(number("ramp_low"), number("ramp_high"))
+	        .toStdString());
+	return results;
 }
 
 FilterWavemeshPlugin::Results FilterWavemeshPlugin::equalise(

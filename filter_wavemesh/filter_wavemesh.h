@@ -49,6 +49,7 @@ private:
 	browse(MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask);
 	Results makeLayers(MeshDocument& document, const RichParameterList& parameters);
 	Results report(MeshModel& layer, const RichParameterList& parameters, vcg::CallBackPos* cb);
+	Results colour(MeshModel& layer, const RichParameterList& parameters);
 	Results equalise(
 	    MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask);
 
@@ -58,6 +59,8 @@ private:
 	wavemesh::SharedBytes encodeForBrowsing(const MeshModel& layer);
 	/// What Browse Levels can offer. Never throws.
 	wavemesh::LevelRange levelRange(const MeshModel& layer);
+	/// Begins to decode all levels but the one that the layer shows if that is the finest.
+	void decodeAhead(const MeshModel& layer, const wavemesh::SharedBytes& stream, int shown);
 	/// Levels of the hierarchy for details, 0 if there is none. Never throws.
 	int finestDetailLevel(const MeshModel& layer);
 	/// Shows `card` where the dialog of Browse Levels, if there is one, shows that of another
@@ -72,6 +75,8 @@ private:
 		wavemesh::SharedBytes stream;
 	};
 	Encoded encoded_;
+	/// While the dialog of Browse Levels waits for its user; then LayerLevels has it.
+	std::shared_ptr<wavemesh::LevelDecoder> ahead_;
 	wavemesh::PyramidCache pyramid_;
 	QString card_; ///< what the dialog of Browse Levels shows
 };

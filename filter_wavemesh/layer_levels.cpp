@@ -22,46 +22,46 @@ std::shared_ptr<LayerLevels>& levelsOn(CMeshO& m)
 
 } // namespace
 
-LayerLevels::LayerLevels(SharedBytes stream, Decoder decoder) :
-        stream_(std::move(stream)), decoder_(std::move(decoder))
+LayerLevels::LayerLevels(std::shared_ptr<LevelDecoder> decoder) : decoder_(std::move(decoder))
 {
 	finest_ = info().finestLevel();
 	away_.resize(info().levels.size());
-	if (stream_->size() >= info().bytes)
+	if (stream()->size() >= info().bytes)
 		return;
 	// A cut file: the last level may be there in part, and only the decoder knows.
-	while (decoder_.level() < finest_) {
-		const Status status = decoder_.advance();
-		if (decoder_.level() == int(passed_.size()))
-			passed_.push_back(decoder_.mesh());
-		if (!status.ok())
-			break;
-	}
-	if (passed_.empty())
+	finest_ = decoder_->finestThatComes();
+	if (finest_ < 0)
 		throw MLException("Wavemesh: the layer's .wmc ends before its base mesh.");
-	finest_ = decoder_.level();
 }
 
-std::shared_ptr<LayerLevels> LayerLevels::find(MeshModel& layer)
+std::shared_ptr<LayerLevels>
+LayerLevels::find(MeshModel& layer, std::shared_ptr<LevelDecoder> ahead)
 {
 	const LayerStream* stream = findValidStream(layer.cm);
 	if (stream == nullptr)
 		return nullptr;
 	std::shared_ptr<LayerLevels> levels = levelsOn(layer.cm);
-	if (levels && levels->stream_ == stream->bytes && levels->shown_ == stream->level)
+	if (levels && levels->stream() == stream->bytes && levels->shown_ == stream->level)
 		return levels;
-	return attach(layer, stream->bytes, stream->level);
+	if (!ahead || ahead->stream() != stream->bytes)
+		ahead = std::make_shared<LevelDecoder>(stream->bytes);
+	return attach(layer, std::move(ahead), stream->level);
 }
 
-std::shared_ptr<LayerLevels> LayerLevels::attach(MeshModel& layer, SharedBytes stream, int shown)
+std::shared_ptr<LayerLevels>
+LayerLevels::attach(MeshModel& layer, std::shared_ptr<LevelDecoder> decoder, int shown)
 {
-	auto decoder = Decoder::open(stream->data(), stream->size());
-	require(decoder.status(), "Cannot browse the levels");
-	const std::shared_ptr<LayerLevels> levels(
-	    new LayerLevels(std::move(stream), std::move(*decoder)));
+	const std::shared_ptr<LayerLevels> levels(new LayerLevels(std::move(decoder)));
 	levels->shown_ = std::clamp(shown, 0, levels->finest_);
 	levels->keepOn(layer, levels);
 	return levels;
+}
+
+bool LayerLevels::areOn(const MeshModel& layer)
+{
+	using Levels = std::shared_ptr<LayerLevels>;
+	auto handle  = Attributes::FindPerMeshAttribute<Levels>(layer.cm, kLevelsAttribute);
+	return Attributes::IsValidHandle(layer.cm, handle) && handle();
 }
 
 void LayerLevels::detach(MeshModel& layer)
@@ -72,17 +72,8 @@ void LayerLevels::detach(MeshModel& layer)
 
 void LayerLevels::keepOn(MeshModel& layer, std::shared_ptr<LayerLevels> self) const
 {
-	keepStream(layer.cm, stream_, shown_);
+	keepStream(layer.cm, stream(), shown_);
 	levelsOn(layer.cm) = std::move(self);
-}
-
-const MeshData& LayerLevels::decoded(int level)
-{
-	while (int(passed_.size()) <= level) {
-		require(decoder_.advance(), "Cannot decode the level");
-		passed_.push_back(decoder_.mesh());
-	}
-	return passed_[std::size_t(level)];
 }
 
 void LayerLevels::show(MeshModel& layer, int level)
@@ -93,8 +84,10 @@ void LayerLevels::show(MeshModel& layer, int level)
 	LooseMesh& wanted                       = away_[std::size_t(level)];
 	const bool first                        = !wanted.mesh;
 	// What can fail comes before the layer is touched.
-	if (first)
-		wanted = makeMesh(decoded(level));
+	if (first) {
+		wanted = makeMesh(decoder_->at(level));
+		decoder_->forget(level);
+	}
 
 	detach(layer); // the levels must not go away with a mesh that they keep
 	const int mask             = layer.dataMask();
@@ -109,17 +102,16 @@ void LayerLevels::show(MeshModel& layer, int level)
 void LayerLevels::copyTo(MeshModel& other, const MeshModel& layer, int level)
 {
 	other.cm.Tr           = layer.cm.Tr;
-	const LooseMesh& away = away_[std::size_t(finest_)];
-	if (level != finest_ || (!away.mesh && shown_ != finest_))
-		exchangeMesh(other, makeMesh(decoded(level)));
-	else {
-		const CMeshO& mesh = away.mesh ? *away.mesh : layer.cm;
-		const int mask     = away.mesh ? away.dataMask : layer.dataMask();
-		exchangeMesh(other, {std::make_unique<CMeshO>(mesh), mask, 0});
-	}
+	const LooseMesh& away = away_[std::size_t(level)];
+	if (level == shown_)
+		exchangeMesh(other, {std::make_unique<CMeshO>(layer.cm), layer.dataMask(), 0});
+	else if (away.mesh)
+		exchangeMesh(other, {std::make_unique<CMeshO>(*away.mesh), away.dataMask, 0});
+	else
+		exchangeMesh(other, makeMesh(decoder_->at(level)));
 	for (const std::string& name : other.cm.textures)
 		other.addTexture(name, layer.getTexture(name));
-	keepStream(other.cm, stream_, level);
+	keepStream(other.cm, stream(), level);
 }
 
 MeshData LayerLevels::finestMesh(const MeshModel& layer)
@@ -127,7 +119,7 @@ MeshData LayerLevels::finestMesh(const MeshModel& layer)
 	if (shown_ == finest_)
 		return toMeshData(layer.cm);
 	const LooseMesh& away = away_[std::size_t(finest_)];
-	return away.mesh ? toMeshData(*away.mesh) : decoded(finest_);
+	return away.mesh ? toMeshData(*away.mesh) : decoder_->at(finest_);
 }
 
 } // namespace wavemesh

@@ -105,7 +105,7 @@ void addReportParameters(RichParameterList& list, const EncodeOptions& defaults,
 	list.addParam(RichInt(
 	    "picture_width", 1200, "Width of the picture (pixels)",
 	    "Lines and letters grow with it; 600 is still readable.", true));
-	addEncodeParameters(list, defaults);
+	addEncodeParameters(list, defaults, Offered::Precision);
 }
 
 LayerReport::LayerReport(

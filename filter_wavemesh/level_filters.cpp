@@ -122,9 +122,10 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::browse(
     MeshModel& layer, const RichParameterList& parameters, unsigned int& postConditionMask)
 {
 	// No progress bar: it would let the slider's next event in while this one is being served.
-	const auto levels = levelsOf(layer);
-	const int level   = chosenLevel(parameters, levels->info(), levels->finest());
-	if (level == levels->shown())
+	const auto levels  = levelsOf(layer);
+	const int level    = chosenLevel(parameters, levels->info(), levels->finest());
+	const bool changes = level != levels->shown();
+	if (!changes)
 		postConditionMask = MeshModel::MM_NONE; // nothing to draw anew
 	levels->show(layer, level);
 	const StreamInfo& info = levels->info();
@@ -137,7 +138,8 @@ FilterWavemeshPlugin::Results FilterWavemeshPlugin::browse(
 		nameLevelFile(layer, level, info.finestLevel());
 	showCard(levelCard({info, levels->finest(), level}, level));
 	const Shown shown {layer, info, level, levels->stream()->size()};
-	log(shown.sentence());
+	if (changes) // the slider moves on within a level
+		log(shown.sentence());
 	return shown.results();
 }
 
@@ -164,7 +166,8 @@ FilterWavemeshPlugin::makeLayers(MeshDocument& document, const RichParameterList
 
 std::shared_ptr<LayerLevels> FilterWavemeshPlugin::levelsOf(MeshModel& layer)
 {
-	if (auto levels = LayerLevels::find(layer))
+	const auto ahead = std::move(ahead_);
+	if (auto levels = LayerLevels::find(layer, ahead))
 		return levels;
 	if (findStream(layer.cm) != nullptr)
 		log(GLLogStream::WARNING,
@@ -173,7 +176,9 @@ std::shared_ptr<LayerLevels> FilterWavemeshPlugin::levelsOf(MeshModel& layer)
 	const auto info          = readInfo(stream->data(), stream->size());
 	require(info.status(), "Cannot browse " + layer.label());
 	encoded_ = {};
-	return LayerLevels::attach(layer, stream, info->finestLevel());
+	return LayerLevels::attach(
+	    layer, ahead && ahead->stream() == stream ? ahead : std::make_shared<LevelDecoder>(stream),
+	    info->finestLevel());
 }
 
 SharedBytes FilterWavemeshPlugin::encodeForBrowsing(const MeshModel& layer)
@@ -199,6 +204,7 @@ LevelRange FilterWavemeshPlugin::levelRange(const MeshModel& layer)
 		if (info.ok()) {
 			const int whole = wholeLevels(*info, stream->size()) - 1;
 			const int shown = valid ? kept->level : whole;
+			decodeAhead(layer, stream, shown);
 			return {*info, std::max(whole, shown), shown};
 		}
 	}
@@ -206,6 +212,16 @@ LevelRange FilterWavemeshPlugin::levelRange(const MeshModel& layer)
 		// The filter itself will say what is wrong; a dialog has no way to.
 	}
 	return {};
+}
+
+void FilterWavemeshPlugin::decodeAhead(const MeshModel& layer, const SharedBytes& stream, int shown)
+{
+	const LayerStream* kept = findStream(layer.cm);
+	if (kept != nullptr && kept->bytes == stream && LayerLevels::areOn(layer))
+		return;
+	ahead_           = std::make_shared<LevelDecoder>(stream);
+	const int finest = ahead_->info().finestLevel();
+	ahead_->goOn(shown < finest ? finest : finest - 1);
 }
 
 int FilterWavemeshPlugin::finestDetailLevel(const MeshModel& layer)

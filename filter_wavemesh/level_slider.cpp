@@ -72,7 +72,7 @@ QString levelCard(const LevelRange& range, int level)
 	if (range.info.levels.empty())
 		return "Level";
 	const LevelInfo &row = rowOf(range.info, level), &last = rowOf(range.info, range.finest);
-	return QString("Level %1 of 0 to %2\n%3 vertices\n%4 faces\n%5 bytes\nerror %6")
+	return QString("Level %1 of %2\n%3 vertices\n%4 faces\n%5 bytes\nerror %6")
 	    .arg(groupedAs(std::uint64_t(level), std::uint64_t(range.finest)))
 	    .arg(range.finest)
 	    .arg(groupedAs(row.vertices, last.vertices), groupedAs(row.faces, last.faces))

@@ -168,15 +168,21 @@ void IOWavemeshPlugin::open(
 		const auto progress    = progressBar(cb, doing("Decoding all levels of", fileName));
 		requireOpened(decoder.status(), fileName);
 		const int finest = decoder->info().finestLevel();
+		const std::vector<double> shares =
+		    decodingShares(decoder->info(), std::min(finest, int(layers.size()) - 1));
+		double before = 0; // of the time, when the level begins
 		for (MeshModel* layer : layers) {
-			require(decoder->advance(), "Cannot open " + fileName);
+			const double after     = shares[std::min(masks.size(), shares.size() - 1)];
+			const Progress ofLevel = [&](double fraction) {
+				return !progress || progress(before + fraction * (after - before));
+			};
+			require(decoder->advance(ofLevel), "Cannot open " + fileName);
 			masks.push_back(fillLayer(*layer, decoder->mesh(), decoder->level(), bytes));
 			layer->setLabel(levelLabel(QFileInfo(fileName).fileName(), decoder->level(), finest));
 			// Each a layer by itself, for projects and when it is reloaded.
 			layer->setIdInFile(-1);
 			nameLevelFile(*layer, decoder->level(), finest);
-			if (progress)
-				progress(double(masks.size()) / double(layers.size()));
+			before = after;
 		}
 		log(QString("Opened levels 0 to %1 of %2 from %3.")
 		        .arg(decoder->level())
@@ -259,8 +265,9 @@ IOWavemeshPlugin::initSaveParameter(const QString& format, const MeshModel& laye
 	if (const LayerStream* stream = findStream(layer.cm)) {
 		const auto info = readInfo(stream->bytes->data(), stream->bytes->size());
 		if (info.ok()) {
-			defaults.bits    = info->bits;
-			defaults.lifting = info->lifting;
+			defaults.bits = info->bits;
+			if (info->mode == Mode::Classic) // compact files have none
+				defaults.lifting = info->lifting;
 		}
 	}
 	list.addParam(RichEnum("preset", int(Preset::Custom), presetNames(), "Preset", presetHelp()));

@@ -18,46 +18,51 @@ void addPromiseParameters(RichParameterList& list)
 	    true));
 }
 
-void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults, bool hidePrecision)
+void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults, Offered offered)
 {
+	const bool hideMethod = offered == Offered::Precision, hideAim = offered != Offered::All;
 	list.addParam(RichInt(
 	    "bits", defaults.bits, "Precision (bits per coordinate)",
 	    "Vertices are moved to a lattice of 2^bits points over the largest extent of the bounding "
 	    "box, 1 to 24 bits. 12 bits keep about 1/8000 of the extent, 16 bits about 1/130000.",
-	    hidePrecision));
+	    offered == Offered::Method));
 	list.addParam(RichFloat(
 	    "step", Scalarm(defaults.step), "Lattice step (model units, 0 = use bits)",
 	    "Distance of two lattice points in model units, in place of the number of bits: no "
 	    "coordinate moves by more than half of it. 0: the step follows from the bits.",
-	    hidePrecision));
-	list.addParam(RichEnum(
-	    "wgc", int(defaults.wgc), {"off", "on", "auto"}, "Geometrical criterion (WGC)",
-	    "Wavelet geometrical criterion: keep the vertices of sharp edges and corners in the coarse "
-	    "levels. <b>off</b>: it has no say. <b>on</b>: better coarse levels of mechanical parts. "
-	    "<b>auto</b>: both are tried and the smaller file is kept if <i>Optimize for</i> is size "
-	    "(in compact mode with effort 3 only); else off. With levels it does not matter."));
-	list.addParam(RichEnum(
-	    "lifting", defaults.lifting - kLiftingOff, {"off", "0-disc", "1-disc", "2-disc"}, "Lifting",
-	    "Classic: coarse vertices are moved to make the coarse levels smoother and closer to the "
-	    "original, "
-	    "using the details around them. <b>off</b>: coarse vertices are vertices of the original. "
-	    "<b>k-disc</b>: how far around a vertex the details are gathered."));
+	    hideAim));
 	list.addParam(RichEnum(
 	    "mode", int(defaults.mode), {"classic", "compact"}, "Mode",
 	    "<b>compact</b>: positions get more precise as the mesh gets denser; the smaller file. "
 	    "<b>classic</b>: the method of the paper: every level is one subdivision step at full "
-	    "precision, with lifting if asked for."));
+	    "precision, with lifting if asked for.",
+	    hideMethod));
 	list.addParam(RichEnum(
 	    "optimize", int(defaults.optimize), {"size", "balanced", "levels"}, "Optimize for",
 	    "<b>size</b>: the fewest bytes, coarse levels as they come. <b>balanced</b>: coarse levels "
 	    "close to the original, for up to 3 % more bytes. <b>levels</b>: the closest at any low "
 	    "rate, for 3 to 25 % more.",
-	    hidePrecision));
+	    hideAim));
 	list.addParam(RichInt(
 	    "effort", defaults.effort, "Effort (1 to 3)",
 	    "1 is the fastest to save and to open, for a larger file. In compact mode 2 chooses one "
 	    "way by a look at the mesh (of two below 4096 vertices, the smaller file), and 3 tries "
-	    "many, keeps the smallest file, and takes five to twenty times as long to save."));
+	    "many, keeps the smallest file, and takes five to twenty times as long to save.",
+	    hideMethod));
+	list.addParam(RichEnum(
+	    "wgc", int(defaults.wgc), {"off", "on", "auto"}, "Geometrical criterion (WGC)",
+	    "Wavelet geometrical criterion: keep the vertices of sharp edges and corners in the coarse "
+	    "levels. <b>off</b>: it has no say. <b>on</b>: better coarse levels of mechanical parts. "
+	    "<b>auto</b>: both are tried and the smaller file is kept if <i>Optimize for</i> is size "
+	    "(in compact mode with effort 3 only); else off. With levels it does not matter.",
+	    hideMethod));
+	list.addParam(RichEnum(
+	    "lifting", defaults.lifting - kLiftingOff, {"off", "0-disc", "1-disc", "2-disc"},
+	    "Lifting (classic mode)",
+	    "Coarse vertices are moved to make the coarse levels smoother and closer to the original, "
+	    "using the details around them. <b>off</b>: coarse vertices are vertices of the original. "
+	    "<b>k-disc</b>: how far around a vertex the details are gathered.",
+	    hideMethod));
 	list.addParam(RichFloat(
 	    "wgc_sharpness", Scalarm(defaults.wgcSharpness), "WGC: sharpness",
 	    "A vertex is sharp if it lies on the border or if two of its faces meet at an angle whose "

@@ -9,10 +9,16 @@
 
 namespace wavemesh {
 
+/// Which of the parameters are not in a dialog's advanced part.
+enum class Offered {
+	All,
+	Method,   ///< all but bits, step and aim
+	Precision ///< bits alone
+};
+
 /// Appends the parameters to `list`, with the values of `defaults`.
-/// @param hidePrecision  bits, step and aim go to the dialog's advanced part
 void addEncodeParameters(
-    RichParameterList& list, const EncodeOptions& defaults, bool hidePrecision = false);
+    RichParameterList& list, const EncodeOptions& defaults, Offered offered = Offered::All);
 
 /// Appends what a file may promise besides its lattice: exact coordinates, the order.
 void addPromiseParameters(RichParameterList& list);

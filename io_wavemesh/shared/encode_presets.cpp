@@ -13,7 +13,7 @@ QString presetHelp()
 	return "<b>as set below</b>: the options below count. The others set all of them but the "
 	       "precision, the order and the bits of attributes:<br>"
 	       "<b>smallest</b>: the fewest bytes for the whole mesh; tries many ways, which takes "
-	       "about ten times as long as balanced.<br>"
+	       "ten to twenty times as long as balanced.<br>"
 	       "<b>balanced</b>: coarse levels close to the original, for up to 3.5 % more bytes than "
 	       "smallest.<br>"
 	       "<b>best coarse levels</b>: the closest coarse levels at any low rate, for 5 to 30 % "

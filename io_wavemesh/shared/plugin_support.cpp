@@ -6,6 +6,31 @@
 #include <limits>
 
 namespace wavemesh {
+namespace {
+
+/// What a mesh is not that has to be an oriented manifold, as the codec says it, and the filters of
+/// MeshLab against it.
+constexpr struct
+{
+	const char *what, *filters;
+} kNoManifold[] = {
+    {"belongs to no face", "'Remove Unreferenced Vertices'"},
+    {"is degenerate", "'Remove Zero Area Faces'"},
+    {"is non-manifold or its faces are oriented inconsistently",
+     "'Remove Duplicate Faces', 'Re-Orient all faces coherently' or 'Repair non "
+     "Manifold Edges'"},
+    {"its faces form several fans", "'Repair non Manifold Vertices by splitting'"}};
+
+QString manifoldAdvice(const QString& what)
+{
+	QString advice = " The mesh has to be an oriented manifold.";
+	for (const auto& wrong : kNoManifold)
+		if (what.contains(wrong.what))
+			advice += QString(" Apply the filter ") + wrong.filters + ", then this one again.";
+	return advice;
+}
+
+} // namespace
 
 QString explain(const Status& status)
 {
@@ -16,9 +41,7 @@ QString explain(const Status& status)
 		text += '.';
 	switch (status.code) {
 	case StatusCode::Unsupported:
-		return text + " The mesh has to be an oriented manifold. These filters help: Remove "
-		              "Unreferenced Vertices, Remove Duplicate Faces, Repair non Manifold Edges, "
-		              "Repair non Manifold Vertices by splitting, Re-Orient all faces coherently.";
+		return text + manifoldAdvice(text);
 	case StatusCode::VersionTooNew:
 		return text + " A newer Wavemesh is needed to read it.";
 	case StatusCode::OutOfMemory:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes the sample meshes, as binary PLY in single precision, into the folder given; or, with
 // numbers of vertices after the folder, a bumpy sphere of each size, to measure with.
+#include "die.h"
 #include "mesh_check.h"
 #include "mesh_families.h"
 #include "shapes.h"
@@ -22,17 +23,23 @@ void put(std::string& out, T value)
 	out.append(reinterpret_cast<const char*>(&value), sizeof value); // little-endian machines only
 }
 
+/// With the texture coordinates of corners, if the mesh has an attribute: it is these then.
 std::string asPly(const MeshData& mesh, const Colours& colours)
 {
-	std::string out =
-	    "ply\nformat binary_little_endian 1.0\ncomment Wavemesh sample\nelement vertex " +
-	    std::to_string(mesh.positions.size()) +
-	    "\nproperty float x\nproperty float y\nproperty float z\n";
+	const bool textured = !mesh.attributes.empty();
+	std::string out     = "ply\nformat binary_little_endian 1.0\ncomment Wavemesh sample\n";
+	if (textured)
+		out += "comment TextureFile " + mesh.textures.front() + "\n";
+	out += "element vertex " + std::to_string(mesh.positions.size()) +
+	       "\nproperty float x\nproperty float y\nproperty float z\n";
 	if (!colours.empty())
 		out +=
 		    "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";
 	out += "element face " + std::to_string(mesh.triangles.size()) +
-	       "\nproperty list uchar int vertex_indices\nend_header\n";
+	       "\nproperty list uchar int vertex_indices\n";
+	if (textured)
+		out += "property list uchar float texcoord\n";
+	out += "end_header\n";
 	for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
 		for (double x : mesh.positions[v])
 			put(out, static_cast<float>(x));
@@ -40,10 +47,16 @@ std::string asPly(const MeshData& mesh, const Colours& colours)
 			for (std::uint8_t c : colours[v])
 				put(out, c);
 	}
-	for (const auto& t : mesh.triangles) {
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
 		put(out, std::uint8_t {3});
-		for (std::uint32_t v : t)
+		for (std::uint32_t v : mesh.triangles[f])
 			put(out, static_cast<std::int32_t>(v));
+		if (!textured)
+			continue;
+		put(out, std::uint8_t {6});
+		for (std::size_t k = 0; k < 9; ++k)
+			if (k % 3 < 2)
+				put(out, static_cast<float>(mesh.attributes.front().values[9 * f + k]));
 	}
 	return out;
 }
@@ -67,6 +80,16 @@ std::string whatIsWrong(const MeshData& mesh)
 	return {};
 }
 
+bool writeFile(const std::string& path, const std::string& bytes)
+{
+	std::ofstream file(path, std::ios::binary);
+	file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+	if (file.flush())
+		return true;
+	std::fprintf(stderr, "%s: cannot be written\n", path.c_str());
+	return false;
+}
+
 bool write(
     const std::string& folder,
     const char* name,
@@ -82,14 +105,8 @@ bool write(
 		std::fprintf(stderr, "%s: %s\n", name, wrong.c_str());
 		return false;
 	}
-	const std::string ply  = asPly(mesh, colours);
-	const std::string path = folder + "/" + name;
-	std::ofstream file(path, std::ios::binary);
-	file.write(ply.data(), static_cast<std::streamsize>(ply.size()));
-	if (!file.flush()) {
-		std::fprintf(stderr, "%s: cannot be written\n", path.c_str());
+	if (!writeFile(folder + "/" + name, asPly(mesh, colours)))
 		return false;
-	}
 	std::printf(
 	    "%-12s %5zu vertices %6zu faces, %u components, %u boundary loops, genus %lld\n", name,
 	    mesh.positions.size(), mesh.triangles.size(), t.components, t.boundaryLoops,
@@ -124,6 +141,8 @@ int main(int argc, char** argv)
 	const MeshData vase = makeVase();
 	bool ok             = write(folder, "blob.ply", makeBlob());
 	ok                  = write(folder, "bracket.ply", makeBracket()) && ok;
+	ok                  = write(folder, "die.ply", makeDie()) && ok;
+	ok                  = writeFile(folder + "/die.png", asPng(dieTexture())) && ok;
 	ok                  = write(folder, "island.ply", makeIsland()) && ok;
 	ok                  = write(folder, "pebble.ply", makePebble()) && ok;
 	ok                  = write(folder, "pieces.ply", makePieces()) && ok;

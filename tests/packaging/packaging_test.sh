@@ -58,6 +58,7 @@ case $claim in
 		done
 		LC_ALL=C.UTF-8 MANWIDTH=80 man --warnings=w -l "$build/wmc.1" >"$out/wmc.txt" 2>"$out/warnings"
 		[[ ! -s $out/warnings ]] || fail "man warns: $(<"$out/warnings")"
+		! grep -n '\\f.\\fR' "$build/wmc.1" || fail "wmc.1 has an empty word."
 		grep -q -e '--lifting' "$out/wmc.txt" || fail "wmc.1 lacks --lifting."
 		;;
 

@@ -107,6 +107,24 @@ TEST(ColourByDetail, ColoursFollowMeshLabsRampFromRedToBlue)
 	}
 }
 
+TEST(ColourByDetail, GreenIsNeitherInsideNorOutside)
+{
+	MeshLabHost& host  = freshHost();
+	MeshModel& layer   = *host.open(sample("blob.ply")).front();
+	const auto results = host.apply(kColour, {{"measure", "1"}});
+	const auto low = results.at("ramp_low").toFloat(), high = results.at("ramp_high").toFloat();
+	ASSERT_GT(high, 0);
+	EXPECT_EQ(low, -high);
+	vcg::Color4b neither;
+	neither.SetColorRamp(low, high, 0.f);
+	EXPECT_EQ(neither, vcg::Color4b(0, 255, 0, 255));
+	for (const auto& v : layer.cm.vert) {
+		vcg::Color4b expected;
+		expected.SetColorRamp(low, high, float(v.cQ()));
+		ASSERT_EQ(v.cC(), expected);
+	}
+}
+
 TEST(EqualiseDetail, GainsOfOneLeaveTheLayerBitForBit)
 {
 	for (const char* name : {"pretzel.ply", "island.ply", "pieces.ply"}) {
@@ -177,6 +195,31 @@ TEST(EqualiseDetail, AThresholdBringsANoisyMeshCloserToTheCleanOne)
 	const double before = rms(host, noisy, clean);
 	host.apply(kEqualise, {{"threshold", "0.25"}});
 	EXPECT_LT(rms(host, noisy, clean), 0.85 * before);
+}
+
+TEST(EqualiseDetail, AnEqualisedLayerFromAFileIsBrowsedAsItIs)
+{
+	MeshLabHost& host = freshHost();
+	host.open(sample("pretzel.ply"));
+	host.save(scratch("equalised.wmc"));
+	for (const bool browsedBefore : {false, true}) {
+		SCOPED_TRACE(browsedBefore);
+		host.clear();
+		MeshModel& layer  = *host.open(scratch("equalised.wmc")).front();
+		const auto browse = [&](const char* level) {
+			host.apply("Wavemesh: Browse Levels", {{"level", level}});
+		};
+		if (browsedBefore) {
+			browse("0");
+			browse("-1");
+		}
+		host.apply(kEqualise, gains(0));
+		const Everything smooth(layer.cm);
+		browse("0");
+		browse("-1");
+		EXPECT_EQ(Everything(layer.cm).coordinates, smooth.coordinates);
+		EXPECT_EQ(Everything(layer.cm).faces, smooth.faces);
+	}
 }
 
 TEST(EqualiseDetail, GainsByLevelAreThoseOfTheirBands)

@@ -15,6 +15,9 @@ using namespace wavemesh::test;
 
 namespace {
 
+constexpr const char* kDetailFilters[] = {
+    "Wavemesh: Colour by Detail", "Wavemesh: Equalise Detail"};
+
 /// What must come back bit for bit: coordinates and faces, in their order.
 struct Shape
 {
@@ -39,6 +42,19 @@ struct Shape
 MeshLabHost::Results browse(MeshLabHost& host, int level)
 {
 	return host.apply("Wavemesh: Browse Levels", {{"level", QString::number(level)}});
+}
+
+/// By a script, which asks no dialog for its parameters.
+MeshLabHost::Results browseByScript(MeshLabHost& host, int level)
+{
+	writeFile(
+	    scratch("browse.mlx"),
+	    QString("<!DOCTYPE FilterScript><FilterScript><filter name=\"Wavemesh: Browse Levels\">"
+	            "<Param name=\"level\" type=\"RichDynamicFloat\" value=\"%1\" min=\"0\" "
+	            "max=\"100\" description=\"\" tooltip=\"\"/></filter></FilterScript>")
+	        .arg(level)
+	        .toUtf8());
+	return host.run(scratch("browse.mlx")).front().results;
 }
 
 double rmsToLayer(MeshLabHost& host, const MeshModel& from, const MeshModel& to)
@@ -201,6 +217,40 @@ TEST(FilterWavemesh, NoEditOfALayerFromAFileIsUndoneByBrowsing)
 		}
 }
 
+TEST(FilterWavemesh, WhatTheDialogDecodesAheadIsForTheMeshThatItFoundOnly)
+{
+	MeshLabHost& host = freshHost();
+	for (const char* name : {"pretzel", "blob"}) {
+		host.open(sample(name + QString(".ply")));
+		host.save(scratch(name + QString(".wmc")));
+	}
+	const auto dialogOn = [&](const char* name) {
+		host.clear();
+		host.open(scratch(name + QString(".wmc")));
+		host.openDialog("Wavemesh: Browse Levels");
+	};
+	const auto verticesOfLevelTwo = [&] { return browseByScript(host, 2).at("vertices").toInt(); };
+	dialogOn("pretzel");
+	const int ofPretzel = verticesOfLevelTwo();
+
+	dialogOn("blob"); // and the layer goes away meanwhile
+	host.clear();
+	host.open(scratch("pretzel.wmc"));
+	EXPECT_EQ(verticesOfLevelTwo(), ofPretzel);
+
+	dialogOn("blob");
+	host.open(scratch("pretzel.wmc")); // another becomes the current one
+	EXPECT_EQ(verticesOfLevelTwo(), ofPretzel);
+
+	dialogOn("blob");
+	for (auto& v : host.mesh().cm.vert)
+		v.P() *= Scalarm(3);
+	const Shape edited(host.mesh());
+	browseByScript(host, 0);
+	browseByScript(host, -1);
+	EXPECT_TRUE(Shape(host.mesh()) == edited);
+}
+
 TEST(FilterWavemesh, ATransformationOfALayerStaysWithEveryLevel)
 {
 	MeshLabHost& first = freshHost();
@@ -214,6 +264,35 @@ TEST(FilterWavemesh, ATransformationOfALayerStaysWithEveryLevel)
 	for (const int level : {0, 2, -1}) {
 		browse(host, level);
 		EXPECT_EQ(host.mesh().cm.Tr, there) << level;
+	}
+}
+
+TEST(FilterWavemesh, LayersFromLevelsAreWhatTheLayerShowsThere)
+{
+	MeshLabHost& host = freshHost();
+	MeshModel& layer  = *host.open(sample("blob.ply")).front();
+	const int finest  = browse(host, 2).at("finest_level").toInt();
+	layer.updateDataMask(MeshModel::MM_VERTCOLOR);
+	for (auto& v : layer.cm.vert)
+		v.C() = vcg::Color4b(10, 20, 30, 255);
+	for (const int shown : {2, 3, finest}) {
+		SCOPED_TRACE(shown);
+		browse(host, shown);
+		host.apply("Wavemesh: Layers from Levels", {{"levels", "2, 3"}});
+		std::vector<MeshModel*> made;
+		for (MeshModel& m : host.document().meshIterator())
+			if (&m != &layer)
+				made.push_back(&m);
+		ASSERT_EQ(made.size(), 2u);
+		EXPECT_TRUE(made[0]->hasDataMask(MeshModel::MM_VERTCOLOR));
+		EXPECT_EQ(made[0]->cm.vert[1].cC(), vcg::Color4b(10, 20, 30, 255));
+		EXPECT_FALSE(made[1]->hasDataMask(MeshModel::MM_VERTCOLOR));
+		const Shape third(*made[1]);
+		for (MeshModel* m : made)
+			host.document().delMesh(m->id());
+		host.document().setCurrentMesh(layer.id());
+		browse(host, 3);
+		EXPECT_TRUE(Shape(layer) == third);
 	}
 }
 
@@ -265,7 +344,7 @@ TEST(FilterWavemesh, AMeshThatIsNoManifoldIsBrowsedAndSavedAndHasNoDetails)
 	MeshLabHost& host = freshHost();
 	host.open(scratch("fin.off"));
 	const Shape before(host.mesh());
-	for (const char* filter : {"Wavemesh: Colour by Detail", "Wavemesh: Equalise Detail"}) {
+	for (const char* filter : kDetailFilters) {
 		EXPECT_NE(messageOf([&] { host.apply(filter); }), QString()) << filter;
 		EXPECT_TRUE(Shape(host.mesh()) == before);
 	}
@@ -278,7 +357,35 @@ TEST(FilterWavemesh, AMeshThatIsNoManifoldIsBrowsedAndSavedAndHasNoDetails)
 	EXPECT_EQ(back.cm.fn, 3);
 }
 
-TEST(FilterWavemesh, AMeshThatCannotBeEncodedGivesAnErrorAndStaysAsItWas)
+TEST(FilterWavemesh, DetailsOfAMeshThatIsNoManifoldNameWhatIsWrongAndTheFilterAgainstIt)
+{
+	struct Case
+	{
+		const char *mesh, *says, *helps;
+	};
+	const Case cases[] = {
+	    {"OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n",
+	     "edge 0-1 is non-manifold", "Repair non Manifold Edges"},
+	    {"OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n3 0 1 2\n3 0 1 3\n", "oriented inconsistently",
+	     "Re-Orient all faces coherently"},
+	    {"OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 3 4\n",
+	     "vertex 0 is non-manifold", "Repair non Manifold Vertices by splitting"},
+	    {"OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n7 7 7\n3 0 1 2\n", "vertex 3 belongs to no face",
+	     "Remove Unreferenced Vertices"}};
+	for (const Case& wrong : cases) {
+		SCOPED_TRACE(wrong.says);
+		writeFile(scratch("wrong.off"), wrong.mesh);
+		for (const char* filter : kDetailFilters) {
+			MeshLabHost& host = freshHost();
+			host.open(scratch("wrong.off"));
+			const QString message = messageOf([&] { host.apply(filter); });
+			EXPECT_TRUE(message.contains(wrong.says)) << qPrintable(message);
+			EXPECT_TRUE(message.contains(wrong.helps)) << qPrintable(message);
+		}
+	}
+}
+
+TEST(FilterWavemesh, ALayerWithoutFacesGivesAnErrorAndStaysAsItWas)
 {
 	writeFile(scratch("points.off"), "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
 	for (const char* filter :
@@ -287,10 +394,17 @@ TEST(FilterWavemesh, AMeshThatCannotBeEncodedGivesAnErrorAndStaysAsItWas)
 	      "Wavemesh: Equalise Detail"}) {
 		SCOPED_TRACE(filter);
 		MeshLabHost& host = freshHost();
+		host.openDialog(filter); // without any layer
+		EXPECT_TRUE(messageOf([&] { host.applyUnchecked(filter); }).contains("open a mesh"));
 		host.open(scratch("points.off"));
-		EXPECT_NE(messageOf([&] { host.apply(filter); }), QString());
+		host.openDialog(filter);
+		EXPECT_TRUE(messageOf([&] { host.apply(filter); }).contains("Any Faces")) << "MeshLab's";
+		EXPECT_TRUE(messageOf([&] { host.applyUnchecked(filter); }).contains("is a point cloud"));
 		EXPECT_EQ(host.document().meshNumber(), 1u);
 		EXPECT_EQ(host.mesh().cm.vn, 3);
+		host.document().addNewMesh(QString(), "nothing");
+		host.openDialog(filter);
+		EXPECT_TRUE(messageOf([&] { host.applyUnchecked(filter); }).contains("is empty"));
 	}
 }
 

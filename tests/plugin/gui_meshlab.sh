@@ -149,6 +149,22 @@ open_filter() {
 	}
 }
 
+# find_slider PICTURE: of the dialog of Browse Levels, at its right end; sets slider_left slider_right
+# slider_y. It is where the dialog has most of the blue that fills its groove, as far as the handle.
+# shellcheck disable=SC2034 # read by those who source this
+find_slider() {
+	read -r slider_left slider_right slider_y < <(
+		convert "$1" -crop "$((WIDTH - 20))x$((HEIGHT - 200))+$((X + 10))+$((Y + 30))" -depth 8 txt:- |
+			awk -F '[,:() ]+' -v x0="$((X + 10))" -v y0="$((Y + 30))" '
+				/^[0-9]/ && $5 - $3 > 80 {
+					if (!($2 in n) || $1 < first[$2]) first[$2] = $1
+					if (!($2 in n) || $1 > last[$2]) last[$2] = $1
+					if (++n[$2] > most) { most = n[$2]; row = $2 }
+				}
+				END { if (most > 50) print x0 + first[row] + 6, x0 + last[row] + 6, y0 + row }'
+	) || fail "There is no slider in the dialog."
+}
+
 click() {
 	xdotool mousemove "$1" "$2" click 1
 	sleep 0.5

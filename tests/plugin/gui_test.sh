@@ -20,19 +20,7 @@ start_meshlab "$out/original.wmc"
 open_filter 'Wavemesh: Browse Levels' 'Browse Levels'
 
 picture finest-before
-# The slider is where the dialog has most of the blue that fills its groove, as far as the handle,
-# which is at its right end. The rest stands at a fixed distance from the dialog's foot.
-read -r slider_left slider_right slider_y < <(
-	convert "$out/finest-before.png" -crop "$((WIDTH - 20))x$((HEIGHT - 200))+$((X + 10))+$((Y + 30))" \
-		-depth 8 txt:- |
-		awk -F '[,:() ]+' -v x0="$((X + 10))" -v y0="$((Y + 30))" '
-			/^[0-9]/ && $5 - $3 > 80 {
-				if (!($2 in n) || $1 < first[$2]) first[$2] = $1
-				if (!($2 in n) || $1 > last[$2]) last[$2] = $1
-				if (++n[$2] > most) { most = n[$2]; row = $2 }
-			}
-			END { if (most > 50) print x0 + first[row] + 6, x0 + last[row] + 6, y0 + row }'
-) || fail "There is no slider in the dialog."
+find_slider "$out/finest-before.png"
 click "$preview_x" "$preview_y"
 
 # drag FROM TO: in the time a hand takes, with every position between

@@ -67,6 +67,14 @@ PluginManager& plugins()
 	return meshlab::pluginManagerInstance();
 }
 
+QAction* actionOf(const QString& filter)
+{
+	QAction* const action = plugins().filterAction(filter);
+	if (action == nullptr)
+		throw MLException("There is no filter " + filter);
+	return action;
+}
+
 } // namespace
 
 MeshLabHost::MeshLabHost() : document_(std::make_unique<MeshDocument>()) {}
@@ -152,9 +160,7 @@ QString MeshLabHost::takeWarnings()
 
 MeshLabHost::Results MeshLabHost::apply(const QString& filter, const RichParameterList& parameters)
 {
-	QAction* const action = plugins().filterAction(filter);
-	if (action == nullptr)
-		throw MLException("There is no filter " + filter);
+	QAction* const action      = actionOf(filter);
 	FilterPlugin* const plugin = plugins().getFilterPluginFromAction(action);
 	plugin->setLog(&document_->Log);
 	QStringList missing;
@@ -170,13 +176,29 @@ MeshLabHost::Results MeshLabHost::apply(const QString& filter, const RichParamet
 	return results;
 }
 
+void MeshLabHost::applyUnchecked(const QString& filter)
+{
+	QAction* const action      = actionOf(filter);
+	FilterPlugin* const plugin = plugins().getFilterPluginFromAction(action);
+	unsigned int changed       = MeshModel::MM_UNKNOWN;
+	plugin->setLog(&document_->Log);
+	plugin->applyFilter(action, RichParameterList(), *document_, changed, progress);
+}
+
+static RichParameterList parametersOf(const QString& filter, const MeshDocument& document)
+{
+	QAction* const action = actionOf(filter);
+	return plugins().getFilterPluginFromAction(action)->initParameterList(action, document);
+}
+
+void MeshLabHost::openDialog(const QString& filter)
+{
+	parametersOf(filter, *document_);
+}
+
 MeshLabHost::Results MeshLabHost::apply(const QString& filter, const Settings& settings)
 {
-	QAction* const action = plugins().filterAction(filter);
-	if (action == nullptr)
-		throw MLException("There is no filter " + filter);
-	RichParameterList parameters =
-	    plugins().getFilterPluginFromAction(action)->initParameterList(action, *document_);
+	RichParameterList parameters = parametersOf(filter, *document_);
 	set(parameters, settings);
 	return apply(filter, parameters);
 }

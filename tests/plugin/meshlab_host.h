@@ -61,8 +61,13 @@ public:
 	/// What the plugins warned about while opening and saving since the last call.
 	QString takeWarnings();
 
+	/// Does what MeshLab does before the dialog of a filter appears, and no more.
+	void openDialog(const QString& filter);
 	/// Applies a filter, by the name it has in the menus, to the document.
 	Results apply(const QString& filter, const Settings& settings = {});
+	/// The same with nothing but the document, as MeshLab's own script runner does it: without a
+	/// look at what the filter needs.
+	void applyUnchecked(const QString& filter);
 	/// Runs a filter script. As in MeshLab a filter gets the parameters in the script and no
 	/// others.
 	std::vector<ScriptStep> run(const QString& script);

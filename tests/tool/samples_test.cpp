@@ -57,6 +57,7 @@ TEST_F(WmcTest, SamplesAreWhatTheGeneratorWrites)
 	ASSERT_EQ(runProgram({GENERATE_SAMPLES_PROGRAM, folder_}).code, 0);
 	for (const std::string& name : sampleMeshes())
 		EXPECT_EQ(readAll(path(name + ".ply")), readAll(sample(name + ".ply"))) << name;
+	EXPECT_EQ(readAll(path("die.png")), readAll(sample("die.png")));
 }
 
 TEST_F(WmcTest, EverySampleHasItsWmcAndItHolds)

@@ -158,6 +158,29 @@ TEST(Progress, MovesWithinALargeLevel)
 	EXPECT_LT(largest, 0.2);
 }
 
+TEST(Progress, OfLevels_IsByTheirWork)
+{
+	EncodeOptions o;
+	for (const bool keepOrder : {false, true}) {
+		o.keepOrder           = keepOrder;
+		const auto file       = encode(makeBumpySphere(20000, 129), o);
+		const StreamInfo info = file->info;
+		const int finest      = info.finestLevel();
+		const auto shares     = decodingShares(info, finest);
+		ASSERT_EQ(shares.size(), info.levels.size());
+		for (std::size_t l = 1; l < shares.size(); ++l)
+			EXPECT_GT(shares[l], shares[l - 1]);
+		if (keepOrder)
+			EXPECT_LT(shares.back(), 0.9);
+		else
+			EXPECT_EQ(shares.back(), 1);
+		EXPECT_LT(shares[std::size_t(finest / 2)], 0.05) << "these are small levels";
+		const auto below = decodingShares(info, finest - 1);
+		EXPECT_EQ(below.size(), shares.size() - 1);
+		EXPECT_EQ(below.back(), 1);
+	}
+}
+
 TEST(Progress, OfALevelCancels_AndTheDecoderStaysWhereItWas)
 {
 	const auto file = encode(makeBumpySphere(5000, 128));

@@ -24,11 +24,10 @@ std::string optionEntry(const CLI::Option& option)
 {
 	std::string entry =
 	    ".TP\n\\fB" + plain(option.get_name(option.get_positional(), true)) + "\\fR";
-	if (option.get_type_size() != 0 && !option.get_positional()) {
-		// CLI11's type names go on with a range after a colon.
-		const std::string type = option.get_type_name();
+	// CLI11's type names go on with a range after a colon; a flag has none.
+	const std::string type = option.get_type_name();
+	if (!type.empty() && !option.get_positional())
 		entry += " \\fI" + plain(type.substr(0, type.find(':'))) + "\\fR";
-	}
 	const std::string fallback = option.get_default_str();
 	entry += "\n" + plain(option.get_description());
 	if (!fallback.empty())

@@ -249,19 +249,14 @@ Result<DecodedMesh> decode(const std::uint8_t* data, std::size_t size, const Dec
 	    options.limits);
 	if (!decoder.ok())
 		return decoder.status();
-	const StreamInfo& info = decoder->info();
-	const int finest       = info.finestLevel();
-	const int target       = options.level < 0 ? finest : std::min(options.level, finest);
-	std::vector<double> work {0}; // of the levels below
-	for (std::size_t l = 0; l <= std::size_t(target); ++l)
-		work.push_back(
-		    work.back() +
-		    levelWork(info.mode, info.levels[l], l == 0 ? nullptr : &info.levels[l - 1]));
-	const double all = work.back() + (target == finest ? featureWork(info.features) : 0);
+	const StreamInfo& info           = decoder->info();
+	const int finest                 = info.finestLevel();
+	const int target                 = options.level < 0 ? finest : std::min(options.level, finest);
+	const std::vector<double> shares = decodingShares(info, target);
 	Status status;
 	while (decoder->level() < target && status.ok()) {
 		const std::size_t next = std::size_t(decoder->level() + 1);
-		const Stage stage(options.progress, work[next] / all, work[next + 1] / all);
+		const Stage stage(options.progress, next == 0 ? 0 : shares[next - 1], shares[next]);
 		if (!stage(0))
 			return cancelled();
 		status = decoder->advance(stage);

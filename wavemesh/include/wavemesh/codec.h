@@ -244,6 +244,12 @@ struct DecodedMesh
 Result<DecodedMesh>
 decode(const std::uint8_t* data, std::size_t size, const DecodeOptions& options = {});
 
+/// About what part of the time that decoding levels 0 to `target` takes has passed when each of
+/// them is done: for the progress of those who decode level by level. Below 1 for the finest level
+/// as far as something follows it.
+/// @pre 0 <= target <= info.finestLevel().  @return target + 1 numbers, ascending
+std::vector<double> decodingShares(const StreamInfo& info, int target);
+
 /// Decodes level by level; what decode() is made of, for browsing and for streams.
 ///
 ///     auto decoder = Decoder::open(data, size);
