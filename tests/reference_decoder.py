@@ -8,6 +8,10 @@ with, not to be fast.
 
     reference_decoder.py FILE.wmc [--level N] [--output MESH.obj] [--digest]
 
+As a module: Decoder(data).decode(level), then result(): vertices, faces; and, if the file has attributes,
+attributes.values(): pairs of an Attribute (of, kind, name, ...) and what its rows stand for, in the order of the
+vertices, faces or corners of result().
+
 Exit code 0: fine. 1: the file is damaged or cut (the outcome of section 11.1 is on stderr; a cut file still gives
 the mesh that section 11.2 says). 2: wrong use.
 """
@@ -517,14 +521,14 @@ class Mixer:
         self.sets = [Weights(N) for _ in range(sets)]
         self.slow = slow
 
-    def mix(self, decoder, models, which):
+    def mix(self, decoder, models, which, limit=255):
         s = [stretch(m.p()) for m in models]
         weights = self.sets[which]
         p = squash(weights.sum(s))
         value = decoder.decode(p)
         weights.adjust(s, p, value, self.slow)
         for m in models:
-            m.learn(value, 255)
+            m.learn(value, limit)
         return value
 
 
@@ -2454,679 +2458,834 @@ def read_exact(decoder, head, positions):
 # 12.5 Order
 # ----------------------------------------------------------------------------------------------------------------
 
-def limited_mix(mixer, decoder, models, which):
-    """Mixer.mix with models of limit 30"""
-    s = [stretch(m.p()) for m in models]
-    weights = mixer.sets[which]
-    p = squash(weights.sum(s))
-    value = decoder.decode(p)
-    weights.adjust(s, p, value, mixer.slow)
-    for m in models:
-        m.learn(value, 30)
-    return value
+AGES = 12                                   # faces told that have slots
+NO_SLOT = 9 * AGES                          # 108
+ORDER_LIMIT = 30                            # of all AdaptiveBits here
+SLOT, FRONT, ANYWHERE = 0, 1, 2             # kinds
 
 
-class Lazily(dict):
-    """Models made when they are asked for first."""
+def table_of(*sizes):
+    """AdaptiveBits in so many dimensions, made when first asked for: table[i, j, ...]. Sizes are for the reader."""
+    return BitTable()
 
-    def __init__(self, make):
-        self.make = make
 
-    def __missing__(self, key):
-        self[key] = self.make()
-        return self[key]
+class BitTable(dict):
+    def __missing__(self, index):
+        self[index] = AdaptiveBit()
+        return self[index]
+
+
+def place(t):
+    return 9 if t == NO_SLOT else t % 9
 
 
 class Free:
-    """The numbers that no vertex has yet, or the faces not told."""
+    """Numbers below a count that are not taken, ascending: `free`, and the faces not told."""
 
     def __init__(self, count):
-        self.left = list(range(count))
-
-    def rank(self, n):
-        return bisect_left(self.left, n)
+        self.numbers = list(range(count))
 
     def has(self, n):
-        r = self.rank(n)
-        return r < len(self.left) and self.left[r] == n
+        i = bisect_left(self.numbers, n)
+        return i < len(self.numbers) and self.numbers[i] == n
+
+    def rank(self, n):
+        return bisect_left(self.numbers, n)
+
+    def near(self, rank):
+        """the one with so many below it, or the first or last"""
+        return self.numbers[clamp(rank, 0, len(self.numbers) - 1)]
 
     def take(self, n):
-        del self.left[self.rank(n)]
+        del self.numbers[bisect_left(self.numbers, n)]
 
 
 class Order:
+    """Of the restored mesh: its number of vertices, its faces; and the mesh of level J, whose faces are the first."""
+
     def __init__(self, mesh, vertices, faces):
-        """mesh: of level J; the restored mesh's number of vertices, and faces"""
-        self.mesh, self.faces = mesh, faces
-        self.number = [NONE] * vertices
-        self.free = Free(vertices)
-        self.untold = Free(len(faces))
-        self.told = [False] * len(faces)
-        self.front, self.young = [], []                     # young: (face, first corner), the youngest first
-        self.last_face, self.last_jump = NONE, 0
-        self.t1 = self.t2 = 108
-        self.k1 = self.k2 = 2
-        self.bits = Lazily(AdaptiveBit)
-        self.ranks, self.jumps = Lazily(lambda: AdaptiveUnsigned(32)), Lazily(lambda: AdaptiveSigned(32))
-        self.slots, self.first, self.guess = Mixer(3, 108), Mixer(4, 2), Mixer(4, 15)
-        self.l = [-1, -2, -3, -4, -5]
-        self.da, self.db, self.da2 = [0] * 4, [0] * 4, [0] * 4
-        self.g1 = self.g2 = 15
-        self.last_place = self.last_step = 0
+        self.mesh = mesh
+        self.vertices = vertices
+        self.faces = faces
+        self.kind = table_of(2, 9, 109)
+        self.after, self.after2 = table_of(108, 109), table_of(108, 109, 10)
+        self.amongs = table_of(108, 512)
+        self.slots = Mixer(3, 108)
+        self.rank = [AdaptiveUnsigned(32) for _ in range(33)]
+        self.jump = [AdaptiveSigned(32) for _ in range(33)]
+        self.lastjump = 0
+        self.use, self.edge = table_of(2, 8), table_of(2, 109, 8)
+        self.edge2, self.numbers = table_of(2, 109, 10, 8), table_of(2, 64)
+        self.first = Mixer(4, 2)
+        self.gafter, self.gafter2 = table_of(15, 16), table_of(15, 16, 16)
+        self.at, self.with_ = table_of(15, 16), table_of(15, 109, 16)
+        self.guess = Mixer(4, 15)
+        self.places = table_of(7, 8)
+        self.steps = [[AdaptiveSigned(32) for _ in range(8)] for _ in range(8)]
+        self.t1 = self.t2 = NO_SLOT
+        self.k1 = self.k2 = ANYWHERE
 
     def read(self, decoder):
+        """For each face of the original: the restored face, and which of its corners is the first; and for each
+        restored vertex its number."""
         self.decoder = decoder
-        order = []                                          # (restored face, first corner)
-        for _ in self.faces:
-            f = self.read_face()
-            start = self.read_first(f)
+        self.order = []
+        self.untold = Free(len(self.faces))
+        self.is_told = [False] * len(self.faces)
+        self.front = []                                     # in the order in which they joined
+        self.joined = set()
+        self.free = Free(self.vertices)
+        self.number = [None] * self.vertices
+        self.recent = [(n & 0xFFFFFFFF) for n in (-1, -2, -3, -4, -5)]                      # l0..l4
+        self.da, self.db, self.da_before = [0] * 3, [0] * 3, [0] * 3
+        self.g1 = self.g2 = 15
+        self.lastplace = self.laststep = 0
+        for _ in range(len(self.faces)):
+            f, t, k = self.read_face()
+            self.t1, self.t2 = t, self.t1
+            self.k1, self.k2 = k, self.k1
+            start = self.read_first_corner(f)
             self.tell(f, start)
-            order.append((f, start))
-            corners = [self.faces[f][(start + q) % 3] for q in range(3)]
+            corners = [(start + k) % 3 for k in range(3)]
             for q in range(3):
-                if self.number[corners[q]] == NONE:
-                    a, b = self.number[corners[(q + 2) % 3]], self.number[corners[(q + 1) % 3]]
-                    self.read_number(corners[q], q, a, b, self.across(f, (start + q) % 3, a, b))
-        for v in range(len(self.number)):
-            if self.number[v] == NONE:
-                self.read_number(v, 3, NONE, NONE, NONE)
-        return order, self.number
+                if self.number[self.faces[f][corners[q]]] is None:
+                    self.read_number(q, *self.around(f, corners, q))
+        for v in range(self.vertices):
+            if self.number[v] is None:
+                self.read_number(3, v, None, None, None)
+        return self.order, self.number
 
-    def neighbour(self, c):
-        """the face across a corner of level J"""
-        if c >= len(self.mesh.opp) or self.mesh.opp[c] == NONE:
-            return NONE
-        return self.mesh.opp[c] // 3
+    def bit(self, model):
+        return bit(self.decoder, model, ORDER_LIMIT)
 
-    def filled_slots(self):
-        slots, among, seen = {}, [0] * 12, set()
-        for age, (f, start) in enumerate(self.young):
+    # Faces
+
+    def neighbour(self, corner):
+        """The face across a corner of level J; none beyond it"""
+        d = self.mesh.opp[corner] if corner < len(self.mesh.opp) else NONE
+        return d // 3 if d != NONE else NONE
+
+    def fill_slots(self):
+        """slot -> face, and `among` of the ages"""
+        filled, among = {}, [0] * AGES
+        mesh = self.mesh
+        taken = set()
+
+        def fill(age, s, corner):
+            f = self.neighbour(corner)
+            if f != NONE and not self.is_told[f] and f not in taken:
+                taken.add(f)
+                filled[9 * age + s] = f
+                among[age] |= 1 << s
+
+        for age in range(min(AGES, len(self.order))):
+            f, start = self.order[-1 - age]
+            if f >= mesh.faces:
+                continue
             for k in range(3):
                 c = 3 * f + (start + k) % 3
-                if c >= len(self.mesh.opp):
-                    continue
-                d = self.mesh.opp[c]
-                places = [(k, self.neighbour(c))]
+                fill(age, k, c)
+                d = mesh.opp[c]
                 if d != NONE:
-                    places += [(3 + 2 * k, self.neighbour(self.mesh.next[d])),
-                               (4 + 2 * k, self.neighbour(self.mesh.prev[d]))]
-                for place, g in places:
-                    if g != NONE and not self.told[g] and g not in seen:
-                        seen.add(g)
-                        slots[9 * age + place] = g
-                        among[age] |= 1 << place
-        return slots, among
+                    fill(age, 3 + 2 * k, mesh.next[d])
+                    fill(age, 4 + 2 * k, mesh.prev[d])
+        return filled, among
 
     def read_face(self):
-        decoder, t1, t2 = self.decoder, self.t1, self.t2
-        place2 = 9 if t2 == 108 else t2 % 9
+        """The next face, its slot and its kind"""
+        filled, among = self.fill_slots()
         kinds = 3 * self.k1 + self.k2
-        slots, among = self.filled_slots()
-        self.front = [f for f in self.front if not self.told[f]]
-        if slots and bit(decoder, self.bits["kind", 0, kinds, t1], 30) == 1:
-            kind, ordered = 0, sorted(slots)
-            for s in ordered:
-                models = [self.bits["after", s, t1], self.bits["after2", s, t1, place2],
-                          self.bits["amongs", s, among[s // 9]]]
-                if s == ordered[-1] or limited_mix(self.slots, decoder, models, s) == 1:
-                    break
-            slot, f = s, slots[s]
-        elif self.front and bit(decoder, self.bits["kind", 1, kinds, t1], 30) == 1:
+        if filled and self.bit(self.kind[SLOT, kinds, self.t1]) == 1:
+            slots = sorted(filled)
+            for s in slots:
+                models = (self.after[s, self.t1], self.after2[s, self.t1, place(self.t2)],
+                          self.amongs[s, among[s // 9]])
+                if s == slots[-1] or self.slots.mix(self.decoder, models, s, ORDER_LIMIT) == 1:
+                    return filled[s], s, SLOT
+        if self.front and self.bit(self.kind[FRONT, kinds, self.t1]) == 1:
             n = len(self.front)
-            r = min(self.ranks[bitlen(n)].read(decoder), n - 1)
-            kind, slot, f = 1, 108, self.front[n - 1 - r]
-        else:
-            left = self.untold.left
-            start = 0 if self.last_face == NONE else self.untold.rank(self.last_face)
-            d = self.jumps[self.last_jump].read(decoder)
-            kind, slot, f = 2, 108, left[clamp(start + d, 0, len(left) - 1)]
-            self.last_jump = bitlen(abs(d))
-        self.t2, self.t1 = self.t1, slot
-        self.k2, self.k1 = self.k1, kind
-        return f
+            r = min(self.rank[bitlen(n)].read(self.decoder), n - 1)
+            return self.front[n - 1 - r], NO_SLOT, FRONT
+        start = self.untold.rank(self.order[-1][0]) if self.order else 0
+        d = self.jump[self.lastjump].read(self.decoder)
+        self.lastjump = bitlen(abs(d))
+        return self.untold.near(start + d), NO_SLOT, ANYWHERE
 
-    def read_first(self, f):
-        decoder, t1 = self.decoder, self.t1
-        place2 = 9 if self.t2 == 108 else self.t2 % 9
-        corners = self.faces[f]
-        number = [1 << 32 if self.number[v] == NONE else self.number[v] for v in corners]
-        used = [int(self.number[v] != NONE) for v in corners]
-        age = 0 if t1 == 108 else t1 // 9
-        other = self.faces[self.young[age][0]] if age < len(self.young) else ()
-        shared = [int(v in other) for v in corners]
-        for turn in range(2):
-            a, b, c = turn, (turn + 1) % 3, (turn + 2) % 3
+    def tell(self, f, start):
+        self.order.append((f, start))
+        self.is_told[f] = True
+        self.untold.take(f)
+        if f in self.joined:
+            self.front.remove(f)
+        self.joined.add(f)
+        for c in range(3 * f, 3 * f + 3):
+            g = self.neighbour(c)
+            if g != NONE and g not in self.joined:
+                self.joined.add(g)
+                self.front.append(g)
+
+    # First corner
+
+    def read_first_corner(self, f):
+        face, t1 = self.faces[f], self.t1
+        age = 0 if t1 == NO_SLOT else t1 // 9
+        other = self.faces[self.order[-1 - age][0]] if self.order else ()
+        used = [self.number[v] is not None for v in face]
+        number = [self.number[v] if self.number[v] is not None else 1 << 32 for v in face]
+        shared = [v in other for v in face]
+        for turn in 0, 1:
+            a, b, c = turn, turn + 1, (turn + 2) % 3
             U = used[a] + 2 * used[b] + 4 * used[c]
             S = shared[a] + 2 * shared[b] + 4 * shared[c]
-            O = int(number[a] < number[b]) + 2 * int(number[b] < number[c]) + 4 * int(number[c] < number[a])
-            models = [self.bits["use", turn, U], self.bits["edge", turn, t1, S],
-                      self.bits["edge2", turn, t1, place2, S], self.bits["numbers", turn, O + 8 * U]]
-            if limited_mix(self.first, decoder, models, turn) == 1:
+            O = (number[a] < number[b]) + 2 * (number[b] < number[c]) + 4 * (number[c] < number[a])
+            models = (self.use[turn, U], self.edge[turn, t1, S], self.edge2[turn, t1, place(self.t2), S],
+                      self.numbers[turn, O + 8 * U])
+            if self.first.mix(self.decoder, models, turn, ORDER_LIMIT) == 1:
                 return turn
         return 2
 
-    def tell(self, f, start):
-        self.told[f] = True
-        self.untold.take(f)
-        self.last_face = f
-        self.young = [(f, start)] + self.young[:11]
-        for c in range(3 * f, 3 * f + 3):
-            g = self.neighbour(c)
-            if g != NONE and not self.told[g] and g not in self.front:
-                self.front.append(g)
+    # Numbers
 
-    def across(self, f, k, a, b):
-        g = self.neighbour(3 * f + k)
-        if g == NONE:
-            return NONE
-        ends = (self.faces[f][(k + 1) % 3], self.faces[f][(k + 2) % 3])
-        for v in self.faces[g]:
-            if v not in ends:
-                return self.number[v]
-        return NONE
-
-    def read_number(self, v, q, a, b, x):
-        decoder, l, t1 = self.decoder, self.l, self.t1
-
-        def sum_of(*terms):
-            return NONE if NONE in terms else sum(terms) % (1 << 32)
-
-        minus = NONE if x == NONE else -x
-        guesses = [
-            self.free.left[0], l[0] + 1, l[0] - 1, l[0] + 2, l[0] - 2, sum_of(a, b, minus), sum_of(a, self.da[q]),
-            sum_of(b, self.db[q]), l[0] + (l[0] - l[1]), sum_of(a, 1), sum_of(a, -1), sum_of(b, 1), sum_of(b, -1),
-            sum_of(a, 2 * self.da[q] - self.da2[q]), l[1] + (l[1] - l[3])]
-        guesses = [g if g == NONE else g % (1 << 32) for g in guesses]
-        C = q + 4 * int(a != NONE) + 8 * int(b != NONE)
-        found = 15
-        for s in range(15):
-            g = guesses[s]
-            if g == NONE or not self.free.has(g) or g in guesses[:s]:
-                continue
-            models = [self.bits["gafter", s, self.g1], self.bits["gafter2", s, self.g1, self.g2],
-                      self.bits["at", s, C], self.bits["with", s, t1, C]]
-            if limited_mix(self.guess, decoder, models, s) == 1:
-                found = s
-                break
-        if found < 15:
-            n = guesses[found]
-        else:
-            places = [guesses[6], guesses[7], guesses[5], a, b, l[0] % (1 << 32), l[1] % (1 << 32), l[2] % (1 << 32)]
-            p = 7
-            for i in range(7):
-                if places[i] not in (NONE, (1 << 32) - 1) and bit(decoder, self.bits["places", i, self.last_place], 30) == 1:
-                    p = i
+    def around(self, f, corners, q):
+        """The vertex at corner q and the numbers a, b, x"""
+        face = self.faces[f]
+        before, after = face[corners[(q + 2) % 3]], face[corners[(q + 1) % 3]]
+        x = None
+        g = self.neighbour(3 * f + corners[q])
+        if g != NONE:
+            for v in self.faces[g]:
+                if v != before and v != after:
+                    x = self.number[v]
                     break
-            d = self.jumps["steps", p, min(self.last_step, 7)].read(decoder)
-            left = self.free.left
-            n = left[clamp(self.free.rank(min(places[p], len(self.number))) + d, 0, len(left) - 1)]
-            self.last_place, self.last_step = p, bitlen(abs(d))
+        return face[corners[q]], self.number[before], self.number[after], x
+
+    def guesses(self, q, a, b, x):
+        """Of all 15, None if a number in it is none"""
+        l0, l1, _, l3, _ = self.recent
+        guess = [self.free.numbers[0], l0 + 1, l0 - 1, l0 + 2, l0 - 2] + [None] * 10
+        if a is not None:
+            guess[6] = a + self.da[q]
+            guess[9], guess[10] = a + 1, a - 1
+            guess[13] = (a + self.da[q]) + (self.da[q] - self.da_before[q])
+        if b is not None:
+            guess[7] = b + self.db[q]
+            guess[11], guess[12] = b + 1, b - 1
+        if a is not None and b is not None and x is not None:
+            guess[5] = a + b - x
+        guess[8] = l0 + (l0 - l1)
+        guess[14] = l1 + (l1 - l3)
+        return [g & 0xFFFFFFFF if g is not None else None for g in guess]
+
+    def read_number(self, q, v, a, b, x):
+        guess = self.guesses(q, a, b, x)
+        n = self.read_guess(q, a, b, guess)
+        if n is None:
+            n = self.read_near(guess, a, b)
+        if a is not None:
+            self.da_before[q], self.da[q] = self.da[q], n - a
+        if b is not None:
+            self.db[q] = n - b
+        self.recent = [n] + self.recent[:4]
         self.free.take(n)
         self.number[v] = n
-        self.g2, self.g1 = self.g1, found
-        if a != NONE:
-            self.da2[q], self.da[q] = self.da[q], n - a
-        if b != NONE:
-            self.db[q] = n - b
-        self.l = [n] + l[:4]
+
+    def read_guess(self, q, a, b, guess):
+        C = q + 4 * (a is not None) + 8 * (b is not None)
+        found = None
+        for s in range(15):
+            if guess[s] is None or not self.free.has(guess[s]) or guess[s] in guess[:s]:
+                continue
+            models = (self.gafter[s, self.g1], self.gafter2[s, self.g1, self.g2], self.at[s, C],
+                      self.with_[s, self.t1, C])
+            if self.guess.mix(self.decoder, models, s, ORDER_LIMIT) == 1:
+                found = s
+                break
+        self.g1, self.g2 = 15 if found is None else found, self.g1
+        return None if found is None else guess[found]
+
+    def read_near(self, guess, a, b):
+        places = (guess[6], guess[7], guess[5], a, b) + tuple(self.recent[:3])
+        p = 0
+        while p < 7:
+            if places[p] is not None and places[p] != 0xFFFFFFFF and self.bit(self.places[p, self.lastplace]) == 1:
+                break
+            p += 1
+        d = self.steps[p][min(self.laststep, 7)].read(self.decoder)
+        self.lastplace, self.laststep = p, bitlen(abs(d))
+        return self.free.near(self.free.rank(min(places[p], self.vertices)) + d)
 
 
 # ----------------------------------------------------------------------------------------------------------------
-# 12.6 Attributes
+# 12.6 Attributes: what the head says
 # ----------------------------------------------------------------------------------------------------------------
 
-VERTEX, FACE, CORNER, WHOLE = range(4)
+VERTICES, FACES, CORNERS, MESH = range(4)   # of what
+KINDS = ("custom", "colour", "normal", "quality", "texture coordinate", "radius", "selected", "edges inside polygons",
+         "transformation")
+COLOUR, NORMAL, POLYGON_EDGES = 1, 2, 7
+INTEGER, F32, F64 = range(3)                # types
 
 
 class Column:
-    def __init__(self, bits, whole, low, step):
-        self.bits, self.whole, self.low, self.step = bits, whole, low, step
+    """On lattices: bits, whole, low, step."""
 
 
 class Attribute:
-    def faux(self):
-        c = self.columns[0] if len(self.columns) == 1 else None
-        return self.of == FACE and self.kind == 7 and c is not None and c.whole and c.low == 0 and c.bits == 3
+    """of, kind, type, columns (their number), name; and how it is coded: lattices (a Column each) or None; exact:
+    (wide, digits) or None; octahedron: its bits or 0. size: bytes of the file, for information."""
 
-    def normal(self):
-        return self.kind == 2 and self.of != WHOLE and self.width == 3
+    def is_faux_edges(self):
+        if self.kind != POLYGON_EDGES or self.of != FACES or self.columns != 1 or not self.lattices:
+            return False
+        column = self.lattices[0]
+        return column.whole and column.low == 0 and column.bits == 3
+
+    def is_normals(self):
+        return self.kind == NORMAL and self.of != MESH and self.columns == 3
 
     def on_levels(self):
-        return not self.faux() and not self.normal()
+        return not self.is_faux_edges() and not self.is_normals()
 
-    def real(self, row):
-        """what a row stands for"""
-        if self.columns:
-            row = [c.low + c.step * n for c, n in zip(self.columns, row)]
-        elif self.octahedron:
+    def value(self, row):
+        """What a row of numbers stands for"""
+        if self.octahedron:
             x, y, z = row
             length = sqrt(x * x + y * y + z * z)
-            row = [v / length for v in row]
+            result = [float(x) / length, float(y) / length, float(z) / length]
+        elif self.lattices:
+            result = [float(c.low) + c.step * n for c, n in zip(self.lattices, row)]
         else:
-            return list(row)
-        return [f32(x) if self.type == 1 else x for x in row]
+            return tuple(row)
+        if self.type == F32:
+            result = [f32(x) for x in result]
+        if self.type == INTEGER and all(c.whole for c in self.lattices or ()) and not self.octahedron:
+            result = [int(x) for x in result]
+        return tuple(result)
+
+
+class HeadReader:
+    """Fields of a payload one after the other; corrupt if they are not all there."""
+
+    def __init__(self, payload, offset):
+        self.payload, self.offset = payload, offset
+
+    def bytes(self, n):
+        if self.offset + n > len(self.payload):
+            raise corrupt("the head's fields are not all there")
+        self.offset += n
+        return bytes(self.payload[self.offset - n:self.offset])
+
+    def u8(self):
+        return self.bytes(1)[0]
+
+    def f64(self):
+        return struct.unpack("<d", self.bytes(8))[0]
+
+    def varint(self, limit=(1 << 63) - 1):
+        got = read_varint(self.payload, self.offset)
+        if got is None:
+            raise corrupt("the head's fields are not all there")
+        if got[0] > limit:
+            raise corrupt("a number in the head is out of range")
+        self.offset = got[1]
+        return got[0]
 
 
 def read_attributes(payload, offset):
-    """What the head says of them: attributes, textures, offset behind."""
-
-    def varint():
-        nonlocal offset
-        got = read_varint(payload, offset)
-        if got is None:
-            raise corrupt("the attributes in the head are not all there")
-        offset = got[1]
-        return got[0]
-
-    def take(n):
-        nonlocal offset
-        if offset + n > len(payload):
-            raise corrupt("the attributes in the head are not all there")
-        offset += n
-        return payload[offset - n:offset]
-
-    count, names = varint(), varint()
-    if count > 64 or names > 65535:
-        raise corrupt("too many attributes or textures")
-    attributes = []
-    for _ in range(count):
-        a = Attribute()
-        a.of, a.kind, a.type, a.width, coding = take(5)
-        a.columns, a.octahedron, a.exact = [], 0, None
-        if a.of > 3 or a.type > 2 or not 1 <= a.width <= 16:
-            raise corrupt("an attribute is none")
-        if 1 <= coding <= 32:
-            a.exact = ((coding - 1) % 2, (coding - 1) // 2 - 1)
-        elif coding != 0:
-            a.octahedron = coding - 64
-            if not 2 <= a.octahedron <= 20 or not a.normal():
-                raise corrupt("an attribute's coding is unknown")
-        for _ in range(a.width if coding == 0 else 0):
-            bits = take(1)[0]
-            if bits >= 128:
-                low = varint()
-                column = Column(bits - 128, True, -float((low + 1) // 2) if low & 1 else float(low // 2), 1.0)
-            else:
-                low, step = struct.unpack("<2d", take(16))
-                column = Column(bits, False, low, step)
-            if column.bits > 24 or not (isfinite(column.low) and isfinite(column.low + column.step * (1 << 24))
-                                        and column.step > 0):
-                raise corrupt("a column of an attribute is out of range")
-            a.columns.append(column)
-        varint()
-        a.name = take(varint())
-        attributes.append(a)
-    return attributes, [take(varint()) for _ in range(names)], offset
+    """The attributes, the names of the textures, and the offset behind them"""
+    head = HeadReader(payload, offset)
+    count = head.varint(64)
+    textures = head.varint(65535)
+    attributes = [read_attribute(head) for _ in range(count)]
+    return attributes, [head.bytes(head.varint(65535)) for _ in range(textures)], head.offset
 
 
-class LatticeReader:
-    """A row on lattices."""
+def read_attribute(head):
+    a = Attribute()
+    a.of, a.kind, a.type, a.columns, coding = (head.u8() for _ in range(5))
+    if a.of > MESH or a.type > F64 or not 1 <= a.columns <= 16:
+        raise corrupt("a field of an attribute is out of range")
+    a.lattices = a.exact = None
+    a.octahedron = 0
+    if coding == 0:
+        a.lattices = [read_column(head) for _ in range(a.columns)]
+    elif coding <= 32:
+        a.exact = ((coding - 1) & 1, ((coding - 1) >> 1) - 1)
+    elif 66 <= coding <= 84 and a.is_normals():
+        a.octahedron = coding - 64
+    else:
+        raise corrupt("coding of an attribute")
+    a.size = head.varint()
+    a.name = head.bytes(head.varint(255))
+    return a
+
+
+def read_column(head):
+    column = Column()
+    byte = head.u8()
+    column.bits, column.whole = byte & 127, byte >= 128
+    if column.bits > 24:
+        raise corrupt("bits of a column are out of range")
+    if column.whole:
+        n = head.varint((1 << 55) - 1)
+        column.low, column.step = (n >> 1 if n & 1 == 0 else -((n + 1) >> 1)), 1
+    else:
+        column.low, column.step = head.f64(), head.f64()
+        if not (column.step > 0 and isfinite(column.low) and isfinite(column.low + column.step * (1 << 24))):
+            raise corrupt("a column's lattice is not finite")
+    return column
+
+
+# ----------------------------------------------------------------------------------------------------------------
+# 12.6 A row
+# ----------------------------------------------------------------------------------------------------------------
+
+# A row is a tuple of numbers, None if it is missing. read(decoder, a, b, l, r) reads one next to these.
+
+class ExactCoder:
+    def __init__(self, attribute):
+        wide, digits = attribute.exact
+        self.columns = attribute.columns
+        self.is_colour = attribute.kind == COLOUR
+        self.numbers = ExactNumbers(wide, digits, self.columns)
+
+    def read(self, decoder, a, b, l, r):
+        row = []
+        onward = off = 0.0
+        for k in range(self.columns):
+            x = float(a[k]) if a and isfinite(a[k]) else 0.0
+            y = (float(b[k]) if isfinite(b[k]) else 0.0) if b else x
+            p = 0.5 * x + 0.5 * y + onward
+            spread = max(abs(0.5 * x - 0.5 * y), 0.5 * off)
+            v = self.numbers.read(decoder, k, p, spread)
+            row.append(v)
+            off = abs(v - p)
+            if not isfinite(off):
+                off = 0.0
+            onward = v - p if self.is_colour and k < 2 and isfinite(v - p) else 0.0
+        return tuple(row)
+
+
+class LatticeColumn:
+    """What is learned of a column."""
 
     def __init__(self, bits):
         self.bits = bits
+        self.ratio = [0] * 8
+        self.error = [0] * 8
+        self.last = self.lastoff = 0
+        self.shape = [[Shape() for _ in range(3)] for _ in range(8)]
+
+
+class LatticeCoder:
+    def __init__(self, bits):
+        self.columns = [LatticeColumn(n) for n in bits]
         self.mixing = Mixing(6144)
-        self.ratio, self.error = ([[0] * 8 for _ in bits] for _ in range(2))
-        self.last, self.last_off = [0] * len(bits), [0] * len(bits)
-        self.shape = [[[Shape() for _ in range(3)] for _ in range(8)] for _ in bits]
 
     def read(self, decoder, a, b, l, r):
+        row = []
+        off = 0
+        for k, column in enumerate(self.columns):
+            if column.bits == 0:
+                row.append(0)
+                continue
+            A = a[k] if a else 1 << (column.bits - 1)
+            B = b[k] if b else A
+            wings = (l[k], r[k]) if l and r else None
+            X, off = self.read_number(decoder, column, k, A, B, b is not None, wings, off)
+            row.append(X)
+        return tuple(row)
+
+    def read_number(self, decoder, column, k, A, B, has_b, wings, off):
+        """The number and its `off`"""
         def log(x):
             return min(log8(abs(x) + 8), 255)
 
-        row, off = [], 0
-        for k, bits in enumerate(self.bits):
-            if bits == 0:
-                row.append(0)
-                continue
-            A = int(a[k]) if a else 1 << (bits - 1)
-            B = int(b[k]) if b else A
-            mean = 8 * (A + B)
-            bend = across = 0
-            if l and r:
-                bend = 2 * (int(l[k]) + int(r[k]) - A - B)
-                across = int(l[k]) - int(r[k])
-            spread = log(8 * (abs(A - B) + abs(across)) + 8)
-            ratio, error = self.ratio[k], self.error[k]
-            seen = log(off) if k > 0 else error[0]
-            lastoff = self.last_off[k]
-            centres = [mean, mean + bend, 16 * A, 16 * B, mean + lastoff,
-                       mean + (off if k > 0 else trunc_div(lastoff, 2)), self.last[k], mean - bend]
-            scales = []
-            for i in range(8):
-                expected = max(0, spread + trunc_div(ratio[i], 16))
-                scales.append(min(trunc_div(3 * expected + error[i], 8), 95))
-            best = ratio.index(min(ratio))
-            context = (4 * min(k, 2) + clamp(trunc_div(seen - 24, 16), 0, 3),
-                       int(b is not None) + 4 * int(l is not None and r is not None) + 5 * int(A == B),
-                       min(scales[0] // 6, 11))
-            opinions = [(centres[i], scales[i], self.shape[k][i][min(scales[i] // 16, 2)]) for i in range(8)]
-            reader = ValueReader(decoder, self.mixing, opinions, context, None)
-            X = reader.around(0, 1 << bits, clamp((centres[best] + 8) >> 4, 0, (1 << bits) - 1),
-                              max(0, trunc_div(scales[best] - 20, 4)))
-            off = 16 * X - mean
-            for i in range(8):
-                e = log(16 * X - centres[i])
-                ratio[i] += trunc_div((e - spread) * 16 - ratio[i], 32)
-                error[i] = e
-            self.last_off[k], self.last[k] = off, 16 * X
-            row.append(float(X))
-        return row
+        mean = 8 * (A + B)
+        bend = across = 0
+        if wings:
+            bend = 2 * (wings[0] + wings[1] - A - B)
+            across = wings[0] - wings[1]
+        spread = log(8 * (abs(A - B) + abs(across)) + 8)
+        seen = log(off) if k > 0 else column.error[0]
+        centres = (mean, mean + bend, 16 * A, 16 * B, mean + column.lastoff,
+                   mean + (off if k > 0 else trunc_div(column.lastoff, 2)), column.last, mean - bend)
+        scales, opinions = [], []
+        for i in range(8):
+            expected = max(0, spread + trunc_div(column.ratio[i], 16))
+            scale = min(trunc_div(3 * expected + column.error[i], 8), 95)
+            scales.append(scale)
+            opinions.append((centres[i], scale, column.shape[i][min(scale // 16, 2)]))
+        best = column.ratio.index(min(column.ratio))
+        contexts = (4 * min(k, 2) + clamp(trunc_div(seen - 24, 16), 0, 3),
+                    has_b + (4 if wings else 0) + (5 if A == B else 0),
+                    min(scales[0] // 6, 11))
+        limit = 1 << column.bits
+        guide = clamp((centres[best] + 8) >> 4, 0, limit - 1)
+        reader = ValueReader(decoder, self.mixing, opinions, contexts, None)
+        X = reader.around(0, limit, guide, max(0, trunc_div(scales[best] - 20, 4)))
+        for i in range(8):
+            e = log(16 * X - centres[i])
+            column.ratio[i] += trunc_div((e - spread) * 16 - column.ratio[i], 32)
+            column.error[i] = e
+        column.lastoff = 16 * X - mean
+        column.last = 16 * X
+        return X, column.lastoff
 
 
-def on_octahedron(v, radius):
-    s = abs(v[0]) + abs(v[1]) + abs(v[2])
-    if s == 0:
-        return [0, 0, radius]
-    w = largest_axis(v)
-    row, left = [0, 0, 0], radius
-    for k in ((w + 1) % 3, (w + 2) % 3):
-        n = int(floor(abs(v[k]) / s * radius + 0.5))
-        row[k] = -n if v[k] < 0 else n
-        left -= n
-    row[w] = -left if v[w] < 0 else left
-    return row
+def axes_of(a):
+    """w, u, v: the axis of the largest component, of equals the first, and the two after it, cyclically"""
+    w = max(range(3), key=lambda k: abs(a[k]))
+    return w, (w + 1) % 3, (w + 2) % 3
 
 
-def largest_axis(v):
-    return [abs(x) for x in v].index(max(abs(x) for x in v))
+def on_octahedron(x, rho):
+    """The row next to a direction"""
+    S = abs(x[0]) + abs(x[1]) + abs(x[2])
+    if S == 0:
+        return (0, 0, rho)
+    w, u, v = axes_of(x)
+    row = [0, 0, 0]
+    for k in u, v:
+        t = floor(abs(x[k]) / S * rho + 0.5)
+        row[k] = -t if x[k] < 0 else t
+    height = rho - abs(row[u]) - abs(row[v])
+    row[w] = -height if x[w] < 0 else height
+    return tuple(row)
 
 
-def expected_normals(positions, faces, of):
-    of_faces, of_vertices = [], [[0.0] * 3 for _ in positions]
-    for t in faces:
-        p, q, r = (positions[v] for v in t)
-        d = [float(q[k] - p[k]) for k in range(3)]
-        e = [float(r[k] - p[k]) for k in range(3)]
-        n = [d[(k + 1) % 3] * e[(k + 2) % 3] - d[(k + 2) % 3] * e[(k + 1) % 3] for k in range(3)]
-        of_faces.append(n)
-        for v in t:
-            for k in range(3):
-                of_vertices[v][k] += n[k]
+def expected_normals(of, positions, faces):
+    """Of the restored mesh, on its lattice: of each vertex, face or corner a direction"""
+    def cross_of(p, q, r):
+        a, b = [float(x) for x in sub(q, p)], [float(x) for x in sub(r, p)]
+        return tuple(a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1)))
 
-    def unit(n):
-        length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
-        return [x / length if length > 0 else 0.0 for x in n]
+    normals_of_faces = [cross_of(*(positions[v] for v in face)) for face in faces]
+    total = [(0.0, 0.0, 0.0)] * len(positions)
+    for face, n in zip(faces, normals_of_faces):
+        for v in face:
+            total[v] = add(total[v], n)
+    result = normals_of_faces if of == FACES else total
+    for i, (x, y, z) in enumerate(result):
+        length = sqrt(x * x + y * y + z * z)
+        result[i] = (x / length, y / length, z / length) if length > 0 else (0.0, 0.0, 0.0)
+    return result if of != CORNERS else [result[v] for face in faces for v in face]
 
-    if of == FACE:
-        return [unit(n) for n in of_faces]
-    units = [unit(n) for n in of_vertices]
-    return units if of == VERTEX else [units[v] for t in faces for v in t]
+
+def expected_row(attribute, direction):
+    if attribute.octahedron:
+        return on_octahedron(direction, 1 << (attribute.octahedron - 1))
+    if attribute.lattices:
+        return tuple(clamp(floor((x - c.low) / c.step + 0.5), 0, (1 << c.bits) - 1)
+                     for x, c in zip(direction, attribute.lattices))
+    return direction
+
+
+class OctahedronCoder:
+    def __init__(self, bits):
+        self.radius = 1 << (bits - 1)
+        self.lattice = LatticeCoder([bits + 1, bits + 1])
+        self.turned = AdaptiveBit()
+
+    def read(self, decoder, a, b, l, r):
+        rho = self.radius
+        w, u, v = axes_of(a)
+        x, y = self.lattice.read(decoder, (a[u] + rho, a[v] + rho), None, None, None)
+        row = [0, 0, 0]
+        row[u], row[v] = x - rho, y - rho
+        height = max(0, rho - abs(row[u]) - abs(row[v]))
+        if height > 0:
+            negative = a[w] < 0
+            if bit(decoder, self.turned, 255) == 1:
+                negative = not negative
+            row[w] = -height if negative else height
+        return tuple(row)
+
+
+# ----------------------------------------------------------------------------------------------------------------
+# 12.6 Rows of a level
+# ----------------------------------------------------------------------------------------------------------------
+
+class Descent:
+    """Where the faces and corners of a level come from: face[f], the face of the parent level; first[F], the lowest
+    face that came from F (one more than there are F); sources[c], one or two corners of the parent level, or none."""
+
+    def __init__(self, parent, mesh, split):
+        self.split = split
+        self.first = [0]
+        self.face = []
+        for F in range(parent.faces):
+            number = 3 if split.centre[F] != NONE else 1 + split.splits[F]
+            self.face += [F] * number
+            self.first.append(len(self.face))
+        self.sources = [self.find_sources(parent, mesh, c) for c in range(len(mesh.V))]
+        for v in range(mesh.vertices):
+            fan = mesh.corners[v]
+            for c, before in zip(fan[1:], fan):
+                self.sources[c] = self.sources[c] or self.sources[before]
+            for c, behind in zip(fan[-2::-1], fan[::-1]):
+                self.sources[c] = self.sources[c] or self.sources[behind]
+
+    def find_sources(self, parent, mesh, c):
+        v = mesh.V[c]
+        F = self.face[c // 3]
+        wanted = (v,) if v < parent.vertices else self.split.parents[v - parent.vertices][:2]
+        at = {parent.V[e]: e for e in range(3 * F, 3 * F + 3)}
+        return tuple(at[u] for u in wanted) if all(u in at for u in wanted) else ()
 
 
 class Channel:
-    """An attribute being read: its rows and what is learned."""
+    """An attribute: its rows of the level that is there, and what is learned of it."""
 
     def __init__(self, attribute):
-        self.a = attribute
-        self.rows, self.old = [], []
+        self.attribute = attribute
+        self.rows = None
         if attribute.octahedron:
-            self.turned = AdaptiveBit()
-            self.lattice = LatticeReader([attribute.octahedron + 1] * 2)
-        elif attribute.columns:
-            self.lattice = LatticeReader([c.bits for c in attribute.columns])
+            self.coder = OctahedronCoder(attribute.octahedron)
+        elif attribute.lattices:
+            self.coder = LatticeCoder([c.bits for c in attribute.lattices])
         else:
-            self.numbers = ExactNumbers(attribute.exact[0], attribute.exact[1], attribute.width)
-        self.kept, self.single, self.same, self.other = (bits_of(4) for _ in range(4))
+            self.coder = ExactCoder(attribute)
+        self.kept, self.same, self.single, self.other = (bits_of(4) for _ in range(4))
         self.last = 0
-
-    def row(self, decoder, a=None, b=None, l=None, r=None):
-        if self.a.octahedron:
-            return self.octahedron_row(decoder, a)
-        if self.a.columns:
-            return self.lattice.read(decoder, a, b, l, r)
-        row, onward, off = [], 0.0, 0.0
-        for k in range(self.a.width):
-            x = a[k] if a and isfinite(a[k]) else 0.0
-            y = (b[k] if isfinite(b[k]) else 0.0) if b else x
-            p = 0.5 * x + 0.5 * y + onward
-            v = self.numbers.read(decoder, k, p, max(abs(0.5 * x - 0.5 * y), 0.5 * off))
-            off = abs(v - p)
-            onward = v - p if self.a.kind == 1 and k < 2 and isfinite(off) else 0.0
-            off = off if isfinite(off) else 0.0
-            row.append(v)
-        return row
-
-    def octahedron_row(self, decoder, a):
-        radius = 1 << (self.a.octahedron - 1)
-        w = largest_axis(a)
-        u, v = (w + 1) % 3, (w + 2) % 3
-        cells = self.lattice.read(decoder, [a[u] + radius, a[v] + radius], None, None, None)
-        row = [0, 0, 0]
-        row[u], row[v] = int(cells[0]) - radius, int(cells[1]) - radius
-        left = max(0, radius - abs(row[u]) - abs(row[v]))
-        negative = a[w] < 0
-        if left > 0 and bit(decoder, self.turned, 255) == 1:
-            negative = not negative
-        row[w] = -left if negative else left
-        return row
-
-    def before(self, i):
-        """the rows before the i-th, and before that"""
-        return (self.rows[i - 1] if i > 0 else None, self.rows[i - 2] if i > 1 else None)
-
-    def near_faces(self, mesh, f):
-        found = [self.rows[mesh.opp[c] // 3] for c in range(3 * f, 3 * f + 3)
-                 if mesh.opp[c] != NONE and mesh.opp[c] // 3 < f]
-        if not found:
-            return (self.rows[f - 1] if f > 0 else None, None)
-        return (found[0], found[-1] if len(found) > 1 else None)
+        self.zero = (0,) * attribute.columns
 
     def read_base(self, decoder, mesh, glue):
-        if self.a.of == WHOLE:
-            self.rows.append(self.row(decoder))
-        elif self.a.of == VERTEX:
+        """The rows of level 0"""
+        self.decoder = decoder
+        self.mesh = mesh
+        self.rows = []
+        of = self.attribute.of
+        if of == MESH:
+            self.rows.append(self.row(None))
+        elif of == VERTICES:
             for v in range(mesh.vertices):
-                first = glue.first_of(v) if glue else v
-                self.rows.append(self.rows[first] if first != v else self.row(decoder, *self.before(v)))
-        elif self.a.of == FACE:
+                if glue and glue.first[v] != v:
+                    self.rows.append(self.rows[glue.first[v]])
+                else:
+                    self.rows.append(self.row_after(self.rows))
+        elif of == FACES:
             for f in range(mesh.faces):
-                self.rows.append(self.row(decoder, *self.near_faces(mesh, f)))
+                self.rows.append(self.row(*self.beside(f)))
         else:
             self.rows = [None] * len(mesh.V)
-            last = None
             for v in range(mesh.vertices):
-                def expect(c):
-                    known = [self.rows[d] for d in (mesh.next[c], mesh.prev[c]) if mesh.V[d] < v]
-                    return (known + [None, None])[:2] + [None, None] if known else [last, None, None, None]
-                self.new_vertex(decoder, mesh.corners[v], expect)
-                if mesh.corners[v]:
-                    last = self.rows[mesh.corners[v][0]]
+                self.read_new_vertex(v, {c: self.known_in_face(c) + (None, None) for c in mesh.corners[v]})
+
+    def row(self, a, b=None, l=None, r=None):
+        return self.coder.read(self.decoder, a, b, l, r)
+
+    def row_after(self, rows):
+        """next to the row before and that before it"""
+        return self.row(rows[-1] if rows else None, rows[-2] if len(rows) > 1 else None)
+
+    def bit(self, model):
+        return bit(self.decoder, model, 255)
+
+    def beside(self, f):
+        """a, b of a face of level 0"""
+        lower = [self.mesh.opp[c] // 3 for c in range(3 * f, 3 * f + 3)
+                 if self.mesh.opp[c] != NONE and self.mesh.opp[c] // 3 < f]
+        if not lower:
+            return (self.rows[f - 1] if f > 0 else None), None
+        return self.rows[lower[0]], (self.rows[lower[-1]] if len(lower) > 1 else None)
+
+    def known_in_face(self, c):
+        """a, b of a corner of level 0"""
+        mesh = self.mesh
+        v = mesh.V[c]
+        known = [self.rows[e] for e in (mesh.next[c], mesh.prev[c]) if mesh.V[e] < v]
+        if not known and v > 0:
+            known = [self.rows[mesh.corners[v - 1][0]]]
+        return tuple(known + [None, None])[:2]
+
+    # After a split
 
     def read_split(self, decoder, parent, mesh, descent):
-        if self.a.of == WHOLE:
-            return
-        if self.a.of == VERTEX:
-            for v in range(parent.vertices, mesh.vertices):
-                a, b = descent.parents[v - parent.vertices][:2]
-                c = descent.edge[v - parent.vertices]
-                l = r = None
-                if c != NONE and parent.opp[c] != NONE:
-                    l, r = self.rows[parent.V[c]], self.rows[parent.V[parent.opp[c]]]
-                self.rows.append(self.row(decoder, self.rows[a], self.rows[b], l, r))
-            return
+        """The rows of the finer level, and whether all arrived. Those that do not are their a. Nothing arrives
+        without a decoder."""
+        self.decoder = decoder
+        self.mesh = mesh
         self.old = self.rows
-        if self.a.of == FACE:
-            self.rows = []
-            self.split_faces(decoder, mesh, descent)
+        if self.attribute.of == MESH:
+            return decoder is not None
+        read = (self.read_vertices, self.read_faces, self.read_corners)[self.attribute.of]
+        try:
+            read(parent, descent)
+        except Exhausted:
+            return False
+        return decoder is not None
+
+    def read_vertices(self, parent, descent):
+        V, opp, old = parent.V, parent.opp, self.old
+        split = descent.split
+        self.rows = old + [old[parents[0]] for parents in split.parents]
+        if self.decoder is None:
             return
-        self.rows = [None] * len(mesh.V)
+        for i, (c, f) in enumerate(split.origin):
+            a, b = (old[u] for u in split.parents[i][:2])
+            l = r = None
+            if c != NONE and opp[c] != NONE:
+                l, r = old[V[c]], old[V[opp[c]]]
+            self.rows[len(old) + i] = self.row(a, b, l, r)
+
+    def read_faces(self, parent, descent):
+        self.rows = [self.old[F] for F in descent.face]
+        if self.decoder is None:
+            return
+        for F in range(parent.faces):
+            faces = range(descent.first[F], descent.first[F + 1])
+            self.last = self.bit(self.kept[self.last + 2 * (len(faces) > 1)])
+            if self.last == 1:
+                continue
+            for f in faces:
+                if self.bit(self.same[0]) == 0:
+                    self.rows[f] = self.row(self.old[F], self.beside(f)[0])
+
+    def read_corners(self, parent, descent):
+        mesh = self.mesh
+        around = [self.around_corner(parent, sources) for sources in descent.sources]
+        self.rows = [a or self.zero for a, _, _, _ in around]
+        if self.decoder is None:
+            return
         for v in range(mesh.vertices):
-            def expect(c):
-                return self.sources(parent, descent.sources[c])
-            if mesh.corners[v]:
-                (self.old_vertex if v < parent.vertices else self.new_vertex)(decoder, mesh.corners[v], expect)
-
-    def split_faces(self, decoder, mesh, descent):
-        f = 0
-        while f < mesh.faces:
-            end = f
-            while end < mesh.faces and descent.face[end] == descent.face[f]:
-                end += 1
-            P = self.old[descent.face[f]]
-            self.last = bit(decoder, self.kept[self.last + 2 * int(end - f > 1)], 255)
-            for g in range(f, end):
-                if self.last == 1 or bit(decoder, self.same[0], 255) == 1:
-                    self.rows.append(P)
-                else:
-                    self.rows.append(self.row(decoder, P, self.near_faces(mesh, g)[0]))
-            f = end
-
-    def sources(self, parent, pair):
-        a, b = (NONE if c == NONE else self.old[c] for c in pair)
-        l = r = None
-        if pair[0] != NONE and pair[1] != NONE:
-            c = 3 * (pair[0] // 3) + 3 - pair[0] % 3 - pair[1] % 3
-            d = parent.opp[c]
-            if (d != NONE and same_row(self.old[parent.next[c]], self.old[parent.prev[d]])
-                    and same_row(self.old[parent.prev[c]], self.old[parent.next[d]])):
-                l, r = self.old[c], self.old[d]
-        return [None if a == NONE else a, None if b == NONE else b, l, r]
-
-    def old_vertex(self, decoder, fan, expect):
-        alike = all(same_row(expect(c)[0], expect(fan[0])[0]) for c in fan)
-        self.last = bit(decoder, self.kept[self.last + 2 * int(not alike)], 255)
-        kept = self.last
-        for j, c in enumerate(fan):
-            near = expect(c)
-            if kept == 1 or bit(decoder, self.same[1], 255) == 1:
-                self.rows[c] = near[0]
-            else:
-                self.other_row(decoder, fan, j, near[0], near)
-
-    def new_vertex(self, decoder, fan, expect):
-        if not fan:
-            return
-        near = [expect(c) for c in fan]
-        self.rows[fan[0]] = self.row(decoder, *near[0])
-        single = 0
-        if len(fan) > 1:
-            alike = all(expects_same(near[0], n) for n in near)
-            single = self.last = bit(decoder, self.single[self.last + 2 * int(not alike)], 255)
-        for j in range(1, len(fan)):
-            before = self.rows[fan[j - 1]]
-            if single == 1 or bit(decoder, self.same[2 + int(not expects_same(near[j], near[j - 1]))], 255) == 1:
-                self.rows[fan[j]] = before
-            else:
-                self.other_row(decoder, fan, j, before, near[j])
-
-    def other_row(self, decoder, fan, j, different, near):
-        others = []
-        for c in reversed(fan[:j]):
-            x = self.rows[c]
-            if len(others) < 4 and not any(same_row(x, y) for y in [different] + others):
-                others.append(x)
-        for n, x in enumerate(others):
-            if bit(decoder, self.other[n], 255) == 1:
-                self.rows[fan[j]] = x
-                return
-        self.rows[fan[j]] = self.row(decoder, *near)
-
-    def read_rest(self, decoder, known, count, positions, faces):
-        if self.a.of == WHOLE:
-            return
-        if self.a.normal():
-            for n in expected_normals(positions, faces, self.a.of):
-                if self.a.octahedron:
-                    n = on_octahedron(n, 1 << (self.a.octahedron - 1))
-                elif self.a.columns:
-                    n = [clamp(floor((x - c.low) / c.step + 0.5), 0, (1 << c.bits) - 1)
-                         for x, c in zip(n, self.a.columns)]
-                self.rows.append(self.row(decoder, n))
-            return
-        for i in range(0 if self.a.faux() else known, count):
-            self.rows.append(self.row(decoder, *self.before(i)))
-
-
-def same_row(x, y):
-    if x is None or y is None:
-        return x is y
-    return [struct.pack("<d", v) for v in x] == [struct.pack("<d", v) for v in y]
-
-
-def expects_same(x, y):
-    return (same_row(x[0], y[0]) and same_row(x[1], y[1])) or (same_row(x[0], y[1]) and same_row(x[1], y[0]))
-
-
-class Descent:
-    """Where the elements of a level come from."""
-
-    def __init__(self, parent, mesh, split):
-        self.parents, self.edge = [], []
-        for c, f in split.origin:
-            self.edge.append(c)
-            self.parents.append((parent.V[parent.next[c]], parent.V[parent.prev[c]]) if c != NONE
-                                else tuple(parent.V[3 * f:3 * f + 2]))
-        self.face = []
-        for f in range(parent.faces):
-            kind = "centre" if split.centre[f] != NONE else (split.splits[f], split.diagonal[f])
-            self.face += [f] * len(DESCENDANTS[kind])
-        self.sources = []
-        for c, v in enumerate(mesh.V):
-            at = {parent.V[d]: d for d in range(3 * self.face[c // 3], 3 * self.face[c // 3] + 3)}
+            if not mesh.corners[v]:
+                continue
             if v < parent.vertices:
-                self.sources.append((at.get(v, NONE), NONE))
+                self.read_old_vertex(v, around)
             else:
-                a, b = (at.get(u, NONE) for u in self.parents[v - parent.vertices])
-                self.sources.append((NONE, NONE) if NONE in (a, b) else (a, b))
-        for fan in mesh.corners:
-            for way in (fan, fan[::-1]):
-                last = (NONE, NONE)
-                for c in way:
-                    if self.sources[c][0] == NONE:
-                        self.sources[c] = last
-                    else:
-                        last = self.sources[c]
+                self.read_new_vertex(v, around)
 
+    def around_corner(self, parent, sources):
+        """a, b, l, r of a corner"""
+        old = self.old
+        if not sources:
+            return None, None, None, None
+        if len(sources) == 1:
+            return old[sources[0]], None, None, None
+        a, b = sources
+        c = 3 * (a // 3) + 3 - a % 3 - b % 3                # the third corner
+        d = parent.opp[c]
+        l = r = None
+        if d != NONE and (old[parent.next[c]] == old[parent.prev[d]] and old[parent.prev[c]] == old[parent.next[d]]):
+            l, r = old[c], old[d]
+        return old[a], old[b], l, r
+
+    def read_old_vertex(self, v, around):
+        fan = self.mesh.corners[v]
+        a = [around[c][0] for c in fan]
+        self.last = self.bit(self.kept[self.last + 2 * any(x != a[0] for x in a)])
+        for i, c in enumerate(fan):
+            if self.last == 1 or self.bit(self.same[1]) == 1:
+                self.rows[c] = a[i] or self.zero
+            else:
+                self.rows[c] = self.read_other(fan[:i], a[i], around[c])
+
+    def read_new_vertex(self, v, around):
+        fan = self.mesh.corners[v]
+
+        def expect_the_same(c, d):
+            return around[c][:2] == around[d][:2] or around[c][:2] == around[d][1::-1]
+
+        self.rows[fan[0]] = self.row(*around[fan[0]])
+        if len(fan) == 1:
+            return
+        self.last = self.bit(self.single[self.last + 2 * (not all(expect_the_same(c, fan[0]) for c in fan))])
+        for i in range(1, len(fan)):
+            c, before = fan[i], fan[i - 1]
+            if self.last == 1 or self.bit(self.same[2 + (not expect_the_same(c, before))]) == 1:
+                self.rows[c] = self.rows[before]
+            else:
+                self.rows[c] = self.read_other(fan[:i], self.rows[before], around[c])
+
+    def read_other(self, fan, not_, around):
+        """other(c, not), fan the corners before c"""
+        others = []
+        for c in reversed(fan):
+            row = self.rows[c]
+            if row != not_ and row not in others and len(others) < 4:
+                others.append(row)
+        for n, row in enumerate(others):
+            if self.bit(self.other[n]) == 1:
+                return row
+        return self.row(*around)
+
+
+# ----------------------------------------------------------------------------------------------------------------
+# 12.6 The rest
+# ----------------------------------------------------------------------------------------------------------------
 
 class Attributes:
     def __init__(self, head):
         self.channels = [Channel(a) for a in head.attributes]
 
     def levels(self):
-        return [c for c in self.channels if c.a.on_levels()]
+        """those that every level has rows of"""
+        return [channel for channel in self.channels if channel.attribute.on_levels()]
 
-    def restore(self, number, turned, mesh, faces):
-        """12.6, The rest: from level J to the restored mesh. number: of the vertices of level J."""
-        for c in self.levels():
-            if c.a.of == VERTEX:
-                first = {}
-                for v, n in enumerate(number):
-                    first.setdefault(n, v)
-                c.rows = [c.rows[first[n]] for n in range(len(first))]
-            elif c.a.of == CORNER:
+    def restore(self, number, turned, mesh):
+        """From the numbering of level J to that of the restored mesh"""
+        for channel in self.levels():
+            rows = channel.rows
+            if channel.attribute.of == VERTICES:
+                placed = {}
+                for v in range(mesh.vertices):
+                    placed.setdefault(number[v], rows[v])
+                channel.rows = [placed[n] for n in range(len(placed))]
+            elif channel.attribute.of == CORNERS:
+                channel.rows = []
                 for f in range(mesh.faces):
-                    if turned[f]:
-                        c.rows[3 * f + 1], c.rows[3 * f + 2] = c.rows[3 * f + 2], c.rows[3 * f + 1]
+                    a, b, c = rows[3 * f:3 * f + 3]
+                    channel.rows += [a, c, b] if turned[f] else [a, b, c]
 
-    def read_rest(self, decoder, number, turned, mesh, positions, faces):
-        self.restore(number, turned, mesh, faces)
-        known = (len(set(number)), mesh.faces, 3 * mesh.faces)
-        count = (len(positions), len(faces), 3 * len(faces))
-        for c in self.channels:
-            i = min(c.a.of, CORNER)
-            c.read_rest(decoder, known[i], count[i], positions, faces)
+    def read_rest(self, decoder, positions, faces):
+        """What is on no level, in the numbering of the restored mesh"""
+        for channel in self.channels:
+            channel.decoder = decoder
+            attribute = channel.attribute
+            if channel.rows is None:
+                channel.rows = []
+            if attribute.is_normals():
+                for n in expected_normals(attribute.of, positions, faces):
+                    channel.rows.append(channel.row(expected_row(attribute, n)))
+            while len(channel.rows) < self.number_of_rows(attribute, positions, faces):
+                channel.rows.append(channel.row_after(channel.rows))
+
+    def number_of_rows(self, attribute, positions, faces):
+        return (len(positions), len(faces), 3 * len(faces), 1)[attribute.of]
+
+    def do_without_rest(self, positions, faces):
+        """If the data end before it: isolated vertices, faces beyond those of level J have the row before"""
+        for channel in self.levels():
+            while len(channel.rows) < self.number_of_rows(channel.attribute, positions, faces):
+                channel.rows.append(channel.rows[-1] if channel.rows else channel.zero)
 
     def digest(self):
-        return xxh32(b"".join(struct.pack("<d", x) for c in self.channels for row in c.rows for x in row))
+        return xxh32(b"".join(struct.pack("<%dd" % len(row), *row)
+                              for channel in self.channels for row in channel.rows))
 
     def put_in_order(self, order, number):
-        vertex = [0] * len(number)
-        for v, n in enumerate(number):
-            vertex[n] = v
-        for c in self.channels:
-            if c.a.of == VERTEX:
-                c.rows = [c.rows[v] for v in vertex]
-            elif c.a.faux():
-                c.rows = [[float(sum((int(c.rows[f][0]) >> (start + k) % 3 & 1) << k for k in range(3)))]
-                          for f, start in order]
-            elif c.a.of == FACE:
-                c.rows = [c.rows[f] for f, _ in order]
-            elif c.a.of == CORNER:
-                c.rows = [c.rows[3 * f + (start + k) % 3] for f, start in order for k in range(3)]
+        """From the numbering of the restored mesh to that of the original (12.5)"""
+        for channel in self.channels:
+            rows, attribute = channel.rows, channel.attribute
+            if rows is None:
+                continue
+            if attribute.of == VERTICES:
+                channel.rows = [None] * len(rows)
+                for v, n in enumerate(number):
+                    channel.rows[n] = rows[v]
+            elif attribute.of == CORNERS:
+                channel.rows = [rows[3 * f + (start + k) % 3] for f, start in order for k in range(3)]
+            elif attribute.is_faux_edges():
+                channel.rows = [(sum((rows[f][0] >> (start + k) % 3 & 1) << k for k in range(3)),)
+                                for f, start in order]
+            elif attribute.of == FACES:
+                channel.rows = [rows[f] for f, _ in order]
 
     def values(self):
-        """of each attribute, what its rows stand for"""
-        return [(c.a, [c.a.real(row) for row in c.rows]) for c in self.channels]
+        """Of each attribute that there are rows of: itself and what the rows stand for, row by row"""
+        return [(channel.attribute, [channel.attribute.value(row) for row in channel.rows])
+                for channel in self.channels if channel.rows is not None]
 
 
 # ----------------------------------------------------------------------------------------------------------------
@@ -3234,19 +3393,28 @@ class Decoder:
             self.mesh = mesh
             self.parents = split.parents if head.compact else []
         if self.attributes and head.kind[i] != PRECISE:
-            if not whole:
-                self.attributes = None                          # 12.6 says what they are then; not of use here
-            else:
-                for channel in self.attributes.levels():
-                    if head.kind[i] == BASE:
-                        channel.read_base(decoder, self.mesh, self.glue)
-                    else:
-                        channel.read_split(decoder, parent, self.mesh, descent)
+            for channel in self.attributes.levels():
+                if head.kind[i] == BASE:
+                    channel.read_base(decoder, self.mesh, self.glue)
+                else:
+                    whole = channel.read_split(decoder if whole else None, parent, self.mesh, descent)
         self.level = i
         return whole
 
     def read_features(self):
         """12"""
+        try:
+            self.read_chunks_of_features()
+        except Outcome as outcome:
+            if outcome.name == "Truncated" and self.attributes:
+                self.attributes.do_without_rest(*self.finest())
+                if self.order:
+                    self.attributes.put_in_order(*self.order)
+            raise
+        if self.order and self.attributes:
+            self.attributes.put_in_order(*self.order)
+
+    def read_chunks_of_features(self):
         head = self.head
         for i in range(4):
             if not head.features >> i & 1:
@@ -3267,8 +3435,6 @@ class Decoder:
                 raise corrupt("the range decoder is exhausted in chunk %s" % kind)
             if computed != digest:
                 raise Outcome("ChecksumMismatch", "digest of chunk %s" % kind)
-        if self.order and self.attributes:
-            self.attributes.put_in_order(*self.order)
 
     def finest(self):
         """The restored mesh, or level J if there is nothing to restore: lattice positions, faces."""
@@ -3278,7 +3444,9 @@ class Decoder:
     def read_R(self, decoder):
         restoration = Restoration(self.head, self.mesh, self.positions, self.glue)
         self.restored = restoration.read(decoder)
-        self.turned, self.number = restoration.turned, restoration.number
+        self.turned = restoration.turned
+        if self.attributes:
+            self.attributes.restore(restoration.number, self.turned, self.mesh)
         return lattice_digest(self.restored[0], [v for t in self.restored[1] for v in t])
 
     def read_O(self, decoder):
@@ -3293,10 +3461,7 @@ class Decoder:
         return xxh32(b"".join(struct.pack("<3d", *p) for p in self.exact))
 
     def read_A(self, decoder):
-        positions, faces = self.finest()
-        number = self.number if self.turned else list(range(self.mesh.vertices))
-        turned = self.turned or [0] * self.mesh.faces
-        self.attributes.read_rest(decoder, number, turned, self.mesh, positions, faces)
+        self.attributes.read_rest(decoder, *self.finest())
         return self.attributes.digest()
 
     def result(self):
