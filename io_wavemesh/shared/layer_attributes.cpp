@@ -164,7 +164,8 @@ QStringList attributesNotKept(const MeshModel& layer, unsigned channels)
 	     {std::pair("vertices", userDefined(layer.cm.vert_attr, channels)),
 	      std::pair("faces", userDefined(layer.cm.face_attr, channels))})
 		if (!list.isEmpty())
-			names << QString("user-defined attributes of %1 (%2)").arg(QString(of), list.join(", "));
+			names
+			    << QString("user-defined attributes of %1 (%2)").arg(QString(of), list.join(", "));
 	if (layer.cm.en > 0)
 		names << "edges";
 	return names;

@@ -12,8 +12,9 @@ namespace {
 constexpr Index kSmall = 48;
 /// ErrorCriterion::share where a smaller one leaves too much.
 constexpr double kLenientShare = 0.95;
-/// A free step may make so many times the error that the same vertices must make. Of smooth shapes
-/// it makes up to 9 times, of planes and edges more than 12: they lose most at a few vertices.
+/// A free step may make so many times the error that the same vertices must make. On scanned shapes
+/// it makes up to 9 times (on regular grids 14), on planes and edges more than 12: they lose most
+/// at a few vertices.
 constexpr double kFreeExcess = 10;
 
 bool worthwhile(Index coarse, Index fine)

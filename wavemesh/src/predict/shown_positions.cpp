@@ -112,16 +112,17 @@ std::vector<LatticePoint> shownPositions(
     int latticeBits,
     const Glue& glue)
 {
-	std::vector<LatticePoint> likely = likelyPositions(table, cells, shift, glue);
+	std::vector<LatticePoint> shown = likelyPositions(table, cells, shift, glue);
 	if (parents.empty())
-		return likely;
-	const Bulge bulge(table, likely, latticeBits);
-	const std::int64_t trust                = bulge.trust(parents, std::max(0, latticeBits - 12));
+		return shown;
+	const Bulge bulge(table, shown, latticeBits);
+	const std::int64_t trust = bulge.trust(parents, std::max(0, latticeBits - 12));
+	if (trust == 0)
+		return shown;
 	const std::vector<std::int64_t> heights = bulge.heights();
-	if (trust == 0 || heights.empty())
-		return likely;
-	const std::int64_t reach        = 8 * ((std::int64_t(1) << shift) - 1);
-	std::vector<LatticePoint> shown = likely;
+	if (heights.empty())
+		return shown;
+	const std::int64_t reach = 8 * ((std::int64_t(1) << shift) - 1);
 	for (std::size_t v = 0; v < shown.size(); ++v) {
 		if (glue.isShared(Index(v)))
 			continue;
@@ -129,7 +130,7 @@ std::vector<LatticePoint> shownPositions(
 		for (std::size_t k = 0; k < 3; ++k) {
 			const std::int64_t further = (trust * heights[v] * bulge.normal(v)[k]) >> 22;
 			shown[v][k]                = static_cast<std::int32_t>(
-                middle[k] + std::clamp(likely[v][k] + further - middle[k], -reach, reach));
+                middle[k] + std::clamp(shown[v][k] + further - middle[k], -reach, reach));
 		}
 	}
 	return shown;
