@@ -41,20 +41,21 @@ void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults,
 	    "optimize", int(defaults.optimize), {"size", "balanced", "levels"}, "Optimize for",
 	    "<b>size</b>: the fewest bytes, coarse levels as they come. <b>balanced</b>: coarse levels "
 	    "close to the original, for up to 3 % more bytes. <b>levels</b>: the closest at any low "
-	    "rate, for 3 to 25 % more.",
+	    "rate, for up to 40 % more.",
 	    hideAim));
 	list.addParam(RichInt(
 	    "effort", defaults.effort, "Effort (1 to 3)",
-	    "1 is the fastest to save and to open, for a larger file. In compact mode 2 chooses one "
-	    "way by a look at the mesh (of two below 4096 vertices, the smaller file), and 3 tries "
-	    "many, keeps the smallest file, and takes five to twenty times as long to save.",
+	    "1 is the fastest to save and to open, for a larger file: it always writes the classic "
+	    "mode. 2 chooses one way by a look at the mesh (of up to eight if the mesh is small), and "
+	    "3 tries many, keeps the best file, and takes five to twenty times as long to save.",
 	    hideMethod));
 	list.addParam(RichEnum(
 	    "wgc", int(defaults.wgc), {"off", "on", "auto"}, "Geometrical criterion (WGC)",
 	    "Wavelet geometrical criterion: keep the vertices of sharp edges and corners in the coarse "
 	    "levels. <b>off</b>: it has no say. <b>on</b>: better coarse levels of mechanical parts. "
-	    "<b>auto</b>: both are tried and the smaller file is kept if <i>Optimize for</i> is size "
-	    "(in compact mode with effort 3 only); else off. With levels it does not matter.",
+	    "<b>auto</b>: both are tried and the smaller file is kept if <i>Optimize for</i> is size, "
+	    "in classic mode or with effort 3, and below 4096 vertices; else off. With levels it does "
+	    "not matter.",
 	    hideMethod));
 	list.addParam(RichEnum(
 	    "lifting", defaults.lifting - kLiftingOff, {"off", "0-disc", "1-disc", "2-disc"},

@@ -14,10 +14,10 @@ QString presetHelp()
 	       "precision, the order and the bits of attributes:<br>"
 	       "<b>smallest</b>: the fewest bytes for the whole mesh; tries many ways, which takes "
 	       "ten to twenty times as long as balanced.<br>"
-	       "<b>balanced</b>: coarse levels close to the original, for up to 3.5 % more bytes than "
+	       "<b>balanced</b>: coarse levels close to the original, for up to 4 % more bytes than "
 	       "smallest.<br>"
-	       "<b>best coarse levels</b>: the closest coarse levels at any low rate, for 5 to 30 % "
-	       "more bytes than smallest.<br>"
+	       "<b>best coarse levels</b>: the closest coarse levels at any low rate, for up to "
+	       "40 % more bytes than smallest.<br>"
 	       "<b>exact</b>: balanced, and every coordinate and every number of attributes bit for "
 	       "bit: two to four times as large.";
 }

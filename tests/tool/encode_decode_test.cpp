@@ -62,6 +62,10 @@ TEST_F(WmcTest, WrongCommandLinesExitWithTwoAndOneLine)
 	    {"encode", in, out, "--effort", "4"},
 	    {"encode", in, out, "--optimize", "speed"},
 	    {"encode", in, out, "--wgc", "maybe"},
+	    {"encode", in, path("a.ply")},
+	    {"encode", in, out, "--step", "0"},
+	    {"encode", in, out, "--effort", "2.5"},
+	    {"report", in, "--configs", "--mode", "classic"},
 	    {"encode", in, out, "--unknown"},
 	    {"encode", in, out, "extra"},
 	    {"decode", in, path("a.xyz")},
@@ -258,18 +262,18 @@ TEST_F(WmcTest, OptionsReachTheFile)
 	EXPECT_EQ(info({"--effort", "1"})["mode"], "classic");
 }
 
-TEST_F(WmcTest, WgcAutoIsTheSmallerWhereBothAreTried)
+TEST_F(WmcTest, WgcAutoIsAsSmallAsTheSmallerWhereBothAreTried)
 {
 	const MeshData mesh                    = makeStarPrism(16, 20);
 	const std::vector<std::string> tried[] = {
 	    {"--mode", "classic"}, {"--mode", "compact", "--effort", "3"}};
 	for (const auto& options : tried) {
-		const auto bytes = [&](const std::string& wgc) {
+		const auto bytes = [&](const std::string& wgc) -> int {
 			auto all = options;
 			all.insert(all.end(), {"--optimize", "size", "--wgc", wgc});
 			return runWmc({"info", encoded("a", mesh, all), "--json"}).json()["bytes"];
 		};
-		EXPECT_EQ(bytes("auto"), std::min(bytes("off"), bytes("on"))) << options[1];
+		EXPECT_LE(bytes("auto"), std::min(bytes("off"), bytes("on"))) << options[1];
 	}
 }
 

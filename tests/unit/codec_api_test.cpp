@@ -84,22 +84,50 @@ TEST(Encode, WgcAuto_ForSize_IsAsSmallAsTheSmallerOfBothInClassicFilesAndAtEffor
 		}
 }
 
-TEST(Encode, WgcAuto_IsOffInCompactFilesBelowEffort3AndUnlessForSize)
+TEST(Encode, WgcAuto_IsOffForLevels)
 {
 	const MeshData mesh = makeStarPrism(16, 20);
-	const auto bytes    = [&](int effort, Optimize optimize, Wgc wgc) {
+	const auto bytes    = [&](int effort, Wgc wgc) {
         EncodeOptions o;
         o.effort   = effort;
-        o.optimize = optimize;
+        o.optimize = Optimize::Levels;
         o.wgc      = wgc;
         return encode(mesh, o)->bytes;
 	};
-	for (const int effort : {1, 2})
-		EXPECT_EQ(
-		    bytes(effort, Optimize::Size, Wgc::Auto), bytes(effort, Optimize::Size, Wgc::Off));
 	for (const int effort : {1, 2, 3})
-		for (const Optimize optimize : {Optimize::Balanced, Optimize::Levels})
-			EXPECT_EQ(bytes(effort, optimize, Wgc::Auto), bytes(effort, optimize, Wgc::Off));
+		EXPECT_EQ(bytes(effort, Wgc::Auto), bytes(effort, Wgc::Off));
+}
+
+TEST(Encode, OfASmallMesh_ForSize_IsTheSmallestAndBalancedWithin3Percent)
+{
+	for (const MeshData& mesh :
+	     {makeStarPrism(16, 20), makeBumpySphere(1500, 122), makeHoledPlate(2, 4), makeCube(),
+	      makeTerrain(900, 3), makeFlatGrid(20, 30)})
+		for (const Mode mode : {Mode::Classic, Mode::Compact})
+			for (const int effort : {1, 2, 3}) {
+				EncodeOptions o;
+				o.mode             = mode;
+				o.effort           = effort;
+				const auto sizeFor = [&](Optimize optimize) {
+					o.optimize = optimize;
+					return double(encode(mesh, o)->bytes.size());
+				};
+				const double size = sizeFor(Optimize::Size), balanced = sizeFor(Optimize::Balanced);
+				EXPECT_LE(size, balanced) << effort;
+				EXPECT_LE(size, sizeFor(Optimize::Levels)) << effort;
+				EXPECT_LE(balanced, 1.03 * size) << effort;
+			}
+}
+
+TEST(Encode, OfAMeshOfMiddleSize_Balanced_IsWithin3PercentOfSize)
+{
+	for (const MeshData& mesh : {makeBumpySphere(5000, 7), makeHoledPlate(3, 13)}) {
+		ASSERT_GE(mesh.positions.size(), 4096u);
+		EncodeOptions o;
+		const auto balanced = encode(mesh, o)->bytes.size();
+		o.optimize          = Optimize::Size;
+		EXPECT_LE(double(balanced), 1.03 * double(encode(mesh, o)->bytes.size()));
+	}
 }
 
 TEST(Encode, SameInput_GivesTheSameBytes)

@@ -7,6 +7,7 @@
 #include <wavemesh/codec.h>
 
 #include <cstdio>
+#include <tuple>
 
 namespace {
 
@@ -73,14 +74,17 @@ int main()
 			if (!print(m.name.c_str(), m.mesh, o))
 				return 1;
 		}
-		for (const int effort : {2, 3}) {
+		for (const auto& [effort, bits, optimize] :
+		     {std::tuple {2, 12, Optimize::Balanced}, std::tuple {2, 16, Optimize::Size},
+		      std::tuple {2, 20, Optimize::Levels}, std::tuple {3, 18, Optimize::Levels},
+		      std::tuple {3, 12, Optimize::Size}}) {
 			EncodeOptions o;
 			o.mode     = Mode::Compact;
 			o.effort   = effort;
-			o.bits     = effort == 2 ? 12 : 18;
-			o.optimize = effort == 2 ? Optimize::Balanced : Optimize::Size;
-			if (effort == 3 && m.mesh.positions.size() > 500)
-				continue; // tried in ten ways, at -O0 too
+			o.bits     = bits;
+			o.optimize = optimize;
+			if (effort == 3 && optimize == Optimize::Size && m.mesh.positions.size() > 500)
+				continue; // tried in dozens of ways, at -O0 too
 			if (!print(m.name.c_str(), m.mesh, o))
 				return 1;
 		}

@@ -30,7 +30,7 @@ std::vector<ScheduleOptions> someOptions()
 	for (const int cell : {0, 1, 4, 8, 12, 64, 1000})
 		for (const int bits : {1, 2, 5})
 			for (const int last : {1, 2, ScheduleOptions::kAll})
-				all.push_back({cell, bits, last});
+				all.push_back({cell, 8, bits, last});
 	return all;
 }
 
@@ -79,7 +79,7 @@ TEST(Schedule, BitsAddUpForEveryMeshAndOption)
 TEST(Schedule, WithoutACellWidthIsAllSplits)
 {
 	const Levels levels = levelsOn(makeBumpySphere(300, 1), 12);
-	const Schedule s    = makeSchedule(levels, 12, {0, 1, 1});
+	const Schedule s    = makeSchedule(levels, 12, {0, 0, 1, 1});
 	EXPECT_EQ(s.baseShift, 0);
 	EXPECT_EQ(s.steps.size(), levels.splits());
 }
@@ -87,7 +87,7 @@ TEST(Schedule, WithoutACellWidthIsAllSplits)
 TEST(Schedule, OfOneLevelIsAtFullPrecision)
 {
 	const Levels levels = levelsOn(makeTriangle(), 12);
-	const Schedule s    = makeSchedule(levels, 12, {8, 1, 1});
+	const Schedule s    = makeSchedule(levels, 12, {8, 8, 1, 1});
 	EXPECT_EQ(s.baseShift, 0);
 	EXPECT_TRUE(s.steps.empty());
 }
@@ -97,16 +97,33 @@ TEST(Schedule, WiderCellsMeanACoarserBase)
 	const Levels levels = levelsOn(makeBumpySphere(900, 1), 16);
 	int before          = -1;
 	for (const int cell : {1, 4, 16}) {
-		const int shift = makeSchedule(levels, 16, {cell, 1, 1}).baseShift;
+		const int shift = makeSchedule(levels, 16, {cell, cell, 1, 1}).baseShift;
 		EXPECT_GT(shift, before) << cell;
 		before = shift;
 	}
 }
 
+TEST(Schedule, NarrowerCellsForTheLastSplitCountThereOnly)
+{
+	const Levels levels    = levelsOn(makeBumpySphere(900, 1), 16);
+	const auto bitsMissing = [](Schedule s) { // where the last split comes
+		int shift = s.baseShift, missing = 0;
+		for (const ScheduleStep& step : s.steps) {
+			shift -= step.bits;
+			missing = step.kind == LevelKind::Split ? shift : missing;
+		}
+		return missing;
+	};
+	const Schedule wide   = makeSchedule(levels, 16, {8, 8, 1, 1});
+	const Schedule narrow = makeSchedule(levels, 16, {8, 2, 1, 1});
+	EXPECT_EQ(narrow.baseShift, wide.baseShift);
+	EXPECT_EQ(bitsMissing(narrow), bitsMissing(wide) - 2);
+}
+
 TEST(Schedule, PrecisionFollowsTheLengthOfTheEdges)
 {
 	const Levels levels = levelsOn(makeBumpySphere(900, 1), 16);
-	const Schedule s    = makeSchedule(levels, 16, {8, 1, 1});
+	const Schedule s    = makeSchedule(levels, 16, {8, 8, 1, 1});
 	EXPECT_EQ(s.steps.front().kind, LevelKind::Split);
 	std::size_t between = 0; // bits that come before the last split
 	bool lastSplitSeen  = false;
@@ -120,7 +137,7 @@ TEST(Schedule, PrecisionFollowsTheLengthOfTheEdges)
 TEST(Schedule, LastBitsComeAtOnceIfAskedTo)
 {
 	const Levels levels = levelsOn(makeBumpySphere(300, 1), 16);
-	const Schedule s    = makeSchedule(levels, 16, {8, 1, ScheduleOptions::kAll});
+	const Schedule s    = makeSchedule(levels, 16, {8, 8, 1, ScheduleOptions::kAll});
 	EXPECT_EQ(s.steps.back().kind, LevelKind::Precise);
 	EXPECT_GT(s.steps.back().bits, 2);
 	EXPECT_EQ(s.steps[s.steps.size() - 2].kind, LevelKind::Split);
@@ -146,7 +163,7 @@ TEST(Schedule, CellsAreBoundedByTheErrorsOfTheLevels)
 	const Levels levels              = levelsOn(makeBumpySphere(1500, 5), 14);
 	const std::vector<double> errors = levelErrors(levels);
 	for (const double times : {0.25, 2.0, 12.0}) {
-		const ScheduleOptions options {64, 1, 1, times};
+		const ScheduleOptions options {64, 64, 1, 1, times};
 		const Schedule s = makeSchedule(levels, 14, options);
 		ASSERT_EQ(whatIsWrong(s, levels, 14, options), "");
 		int shift         = s.baseShift;

@@ -35,6 +35,8 @@ struct Encode
 		std::error_code ignored;
 		if (std::filesystem::equivalent(in, out, ignored))
 			throw UsageError(out + ": this is the mesh to encode; name another file to write");
+		if (isNamedAsMesh(out))
+			throw UsageError(out + ": this is the name of a mesh, and encode writes .wmc");
 		const EncodeOptions options = codec.toEncodeOptions();
 		std::vector<std::string> notRead;
 		MeshData mesh = loadMesh(in, attributes.channels(), &notRead);

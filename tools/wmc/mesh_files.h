@@ -24,6 +24,8 @@ MeshData loadMesh(
 
 /// Throws UsageError if no mesh can be written under this name.
 void checkMeshFormat(const std::string& path);
+/// Is it named like a mesh that can be written, as .ply?
+bool isNamedAsMesh(const std::string& path);
 
 /// Writes a mesh whole or not at all, with the attributes that the format has; an OBJ with textures
 /// also gets a material library, .mtl. PLY (binary), OBJ and OFF keep every bit of the coordinates,

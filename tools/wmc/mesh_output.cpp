@@ -376,9 +376,14 @@ std::vector<std::string> whatIsNotHeld(const MeshData& mesh, Format format)
 
 } // namespace
 
+bool isNamedAsMesh(const std::string& path)
+{
+	return formatOf(path) != Format::Unknown;
+}
+
 void checkMeshFormat(const std::string& path)
 {
-	if (formatOf(path) == Format::Unknown)
+	if (!isNamedAsMesh(path))
 		throw UsageError(path + ": only .ply, .obj, .off and .stl can be written");
 }
 

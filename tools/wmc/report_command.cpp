@@ -209,11 +209,13 @@ void addReport(CLI::App& app, Command& chosen)
 	command->add_option("IN", c->in, "Mesh to read: .ply, .obj, .off or .stl")->required();
 	c->codec.addTo(*command);
 	c->attributes.addTo(*command);
-	command->add_flag(
-	    "--configs", c->configs,
-	    "The paper's three configurations and the compact mode in one report: I (lazy), II "
-	    "(lifting), III (lifting and wgc), compact. For the three --wgc and --optimize are "
-	    "ignored; --lifting gives the k of II and III");
+	command
+	    ->add_flag(
+	        "--configs", c->configs,
+	        "The paper's three configurations and the compact mode in one report: I (lazy), II "
+	        "(lifting), III (lifting and wgc), compact. For the three --wgc and --optimize are "
+	        "ignored; --lifting gives the k of II and III")
+	    ->excludes("--mode");
 	command
 	    ->add_option(
 	        "--samples", c->samples,

@@ -2,11 +2,11 @@
 #include "container/container.h"
 #include "encode/classic.h"
 #include "encode/compact.h"
+#include "encode/ways.h"
 #include "finish/finish.h"
 
 #include <wavemesh/codec.h>
 
-#include <algorithm>
 #include <new>
 #include <optional>
 
@@ -30,45 +30,23 @@ Status checkOptions(const EncodeOptions& o)
 	return {};
 }
 
-/// Which steps of the coarsening look at the error they make. Shares and steps from experiment, on
-/// meshes of all kinds: docs/algorithm.md, section 3.
-Steering steeringFor(Optimize optimize)
-{
-	switch (optimize) {
-	case Optimize::Balanced:
-		return {1, 0.99, 0.9};
-	case Optimize::Levels:
-		return {0, 0.95, 0.7};
-	case Optimize::Size:
-		break;
-	}
-	return {};
-}
-
-/// ScheduleOptions::cellErrors. Coordinates that repeat are cheaper exact from the start than half
-/// known.
-double cellErrorsFor(Optimize optimize, bool repeats)
-{
-	switch (optimize) {
-	case Optimize::Balanced:
-		return repeats ? 0.25 : 12;
-	case Optimize::Levels:
-		return 2;
-	case Optimize::Size:
-		break;
-	}
-	return 0;
-}
-
 /// Parts of the work by vertex, about 0.1 microseconds: measured as in level_work.h.
 struct EncodingWork
 {
 	double prepare, coarsen;
 	double levels, finish; ///< each time that it is tried
-	int tries, passes;
 
-	double pass() const { return coarsen + tries * (levels + finish); }
-	double all() const { return prepare + passes * pass(); }
+	double of(const Way& way) const
+	{
+		return coarsen + double(way.plans.size()) * (levels + finish);
+	}
+	double of(const std::vector<Way>& ways) const
+	{
+		double all = prepare;
+		for (const Way& way : ways)
+			all += of(way);
+		return all;
+	}
 };
 
 /// Cuts, and rounds to the lattice.
@@ -92,100 +70,71 @@ Result<QuantisedMesh> prepare(const MeshData& mesh, const EncodeOptions& options
 	return quantised;
 }
 
-/// Everything that may be encoded in several ways, of which the smallest file is kept.
 class Encoder
 {
 public:
 	Encoder(const MeshData& original, const QuantisedMesh& mesh, const EncodeOptions& options) :
 	        original_(original), mesh_(mesh), options_(options),
-	        classic_(options.mode == Mode::Classic || options.effort == 1),
-	        repeats_(!classic_ && repeatsItself(mesh.cut.table, mesh.positions))
+	        classic_(isWrittenClassic(options)), work_(typicalWork()), choice_(options.optimize)
 	{
 	}
 
 	Result<EncodedMesh> run()
 	{
-		const std::vector<Coarsening> ways = coarsenings();
-		const EncodingWork work            = workOf(int(ways.size()));
-		double done                        = work.prepare;
-		for (const Coarsening& way : ways) {
-			const bool wgc = way.wgc;
-			const Stage stage(
-			    options_.progress, done / work.all(), (done + work.pass()) / work.all());
-			done += work.pass();
-			if (!stage(0))
-				return cancelled();
-			const double coarsened = work.coarsen / work.pass();
-			const GeometricalCriterion criterion {
-			    wgc, options_.wgcSharpness, options_.wgcDeviation};
-			std::optional<Levels> levels =
-			    makeLevels(mesh_, criterion, steeringFor(way.aim), stage.part(0, coarsened));
-			if (!levels)
-				return cancelled();
-			std::optional<AttributeLevels> attributes;
-			if (featuresFor(options_, original_, mesh_.cut) & (1 << kAttributes))
-				attributes.emplace(original_, mesh_, *levels);
-			const Stage writing = stage.part(coarsened, 1);
-			if (!(classic_ ? tryClassic(*levels, attributes, wgc, writing)
-			               : tryCompact(*levels, attributes, wgc, writing)))
+		const std::vector<Way> ways = waysToEncode(
+		    options_, mesh_.positions.size(),
+		    !classic_ && repeatsItself(mesh_.cut.table, mesh_.positions));
+		const double all = work_.of(ways);
+		double done      = work_.prepare;
+		for (const Way& way : ways) {
+			const double work = work_.of(way);
+			const Stage stage(options_.progress, done / all, (done + work) / all);
+			done += work;
+			if (!stage(0) || !tryWay(way, stage))
 				return cancelled();
 		}
-		return std::move(best_);
+		return choice_.take();
 	}
 
 private:
 	using Attributes = std::optional<AttributeLevels>;
 
-	static constexpr std::size_t kSmall = 4096; ///< vertices; their time is nothing
-	bool isSmall() const { return mesh_.positions.size() < kSmall; }
-	static constexpr std::size_t kLarge = 16384; ///< vertices; here speed counts
-	bool isLarge() const { return mesh_.positions.size() >= kLarge; }
-
-	/// One way to make levels.
-	struct Coarsening
-	{
-		Optimize aim;
-		bool wgc;
-	};
-
-	std::vector<Coarsening> coarsenings() const
-	{
-		const Optimize aim = options_.optimize;
-		if (options_.wgc != Wgc::Auto)
-			return {{aim, options_.wgc == Wgc::On}};
-		std::vector<Coarsening> all {{aim, false}};
-		if (aim == Optimize::Size && (options_.mode == Mode::Classic || options_.effort == 3))
-			all.push_back({aim, true});
-		if (all.size() > 1 && options_.mode == Mode::Compact && isSmall())
-			all.push_back({Optimize::Balanced, false});
-		return all;
-	}
-
 	/// The levels are not known yet: what they usually are.
-	EncodingWork workOf(int passes) const
+	EncodingWork typicalWork() const
 	{
 		EncodingWork work {};
 		work.prepare = 1;
 		work.coarsen = options_.optimize == Optimize::Size ? 4.5 : 12;
 		work.levels  = !classic_ ? 27 : options_.effort == 1 ? 3.5 : 7;
 		work.finish  = 0.5 + 7 * options_.keepOrder + 7 * options_.exact;
-		work.tries   = classic_ ? 1 : int(plans().size());
-		work.passes  = passes;
 		return work;
 	}
 
 	/// The levels' part in the work of one try.
-	double written() const
+	double written() const { return work_.levels / (work_.levels + work_.finish); }
+
+	bool tryWay(const Way& way, const Stage& stage)
 	{
-		const EncodingWork work = workOf(1);
-		return work.levels / (work.levels + work.finish);
+		const double coarsened = work_.coarsen / work_.of(way);
+		const GeometricalCriterion criterion {
+		    way.wgc, options_.wgcSharpness, options_.wgcDeviation};
+		std::optional<Levels> levels =
+		    makeLevels(mesh_, criterion, steeringFor(way.aim), stage.part(0, coarsened));
+		if (!levels)
+			return false;
+		Attributes attributes;
+		if (featuresFor(options_, original_, mesh_.cut) & (1 << kAttributes))
+			attributes.emplace(original_, mesh_, *levels);
+		const Stage writing = stage.part(coarsened, 1);
+		return classic_ ? tryClassic(*levels, attributes, way, writing)
+		                : tryCompact(*levels, attributes, way, writing);
 	}
 
-	Head headOf(const Levels& levels, Mode mode, bool wgc) const
+	Head headOf(const Levels& levels, const Way& way) const
 	{
 		Head head;
-		head.mode     = mode;
-		head.wgc      = wgc;
+		head.mode     = classic_ ? Mode::Classic : Mode::Compact;
+		head.wgc      = way.wgc;
 		head.rich     = options_.effort > 1;
 		head.lattice  = mesh_.lattice;
 		head.digest   = digestOf(levels.replay.finest, levels.positions);
@@ -193,81 +142,40 @@ private:
 		return head;
 	}
 
-	bool tryClassic(Levels& levels, const Attributes& attributes, bool wgc, const Stage& stage)
+	bool
+	tryClassic(Levels& levels, const Attributes& attributes, const Way& way, const Stage& stage)
 	{
-		Head head    = headOf(levels, Mode::Classic, wgc);
+		Head head    = headOf(levels, way);
 		head.lifting = options_.mode == Mode::Classic ? options_.lifting : kLiftingOff;
 		std::vector<std::uint8_t> chunks;
 		auto writer = writerFor(attributes);
 		if (!writeClassic(levels, writer.get(), head, chunks, stage.part(0, written())))
 			return false;
-		keepIfSmaller(levels, writer.get(), head, chunks);
+		finish(way.plans.front(), levels, writer.get(), head, chunks);
 		return stage(1);
 	}
 
 	bool
-	tryCompact(const Levels& levels, const Attributes& attributes, bool wgc, const Stage& stage)
+	tryCompact(const Levels& levels, const Attributes& attributes, const Way& way, const Stage& stage)
 	{
-		const std::vector<Plan> tries = plans();
-		for (std::size_t i = 0; i < tries.size(); ++i) {
-			const Stage part =
-			    stage.part(double(i) / double(tries.size()), double(i + 1) / double(tries.size()));
-			Head head       = headOf(levels, Mode::Compact, wgc);
-			head.predictors = tries[i].predictors;
+		double done = 0;
+		for (const Plan& plan : way.plans) {
+			const double share = 1 / double(way.plans.size());
+			const Stage part   = stage.part(done, done + share);
+			done += share;
+			Head head       = headOf(levels, way);
+			head.predictors = plan.predictors;
 			std::vector<std::uint8_t> chunks;
-			const Schedule schedule = makeSchedule(levels, mesh_.lattice.bits, tries[i].schedule);
+			const Schedule schedule = makeSchedule(levels, mesh_.lattice.bits, plan.schedule);
 			auto writer             = writerFor(attributes);
 			if (!writeCompact(
 			        levels, schedule, writer.get(), head, chunks, part.part(0, written())))
 				return false;
-			keepIfSmaller(levels, writer.get(), head, chunks);
+			finish(plan, levels, writer.get(), head, chunks);
 			if (!part(1))
 				return false;
 		}
 		return true;
-	}
-
-	/// One way to code positions.
-	struct Plan
-	{
-		ScheduleOptions schedule;
-		PredictorSet predictors;
-	};
-
-	std::vector<Plan> plans() const
-	{
-		constexpr int kAll     = ScheduleOptions::kAll;
-		const double smooth    = cellErrorsFor(options_.optimize, false);
-		const double repeating = cellErrorsFor(options_.optimize, true);
-		const PredictorSet all = PredictorSet::All, repeats = PredictorSet::Repeats;
-		if (options_.effort < 3) {
-			// Narrower cells cost next to nothing here, and coarse levels look smoother.
-			const int cell = options_.optimize == Optimize::Balanced ? 6 : 8;
-			if (isSmall())
-				return {{{cell, 1, 1, smooth}, all}, {{8, 1, kAll, repeating}, repeats}};
-			if (repeats_)
-				return {{{8, 2, kAll, repeating}, repeats}};
-			return {{{cell, 2, 2, smooth}, isLarge() ? PredictorSet::Few : all}};
-		}
-		std::vector<Plan> ways;
-		const auto add = [&ways](PredictorSet set, std::initializer_list<ScheduleOptions> some) {
-			for (const ScheduleOptions& schedule : some)
-				ways.push_back({schedule, set});
-		};
-		if (isSmall() || !repeats_)
-			add(all, {{8, 1, 1, smooth},
-			          {8, 1, 2, smooth},
-			          {8, 1, kAll, smooth},
-			          {4, 1, 2, smooth},
-			          {12, 1, 2, smooth}});
-		if (isSmall()) // as by default
-			add(all, {{6, 1, 1, cellErrorsFor(Optimize::Balanced, false)}});
-		add(repeats, {{8, 1, 1, smooth}, {8, 1, 2, smooth}, {8, 1, kAll, smooth}});
-		if (isSmall() || repeats_)
-			add(repeats, {{4, 1, kAll, repeating},
-			              {12, 1, kAll, repeating},
-			              {8, 1, kAll, cellErrorsFor(Optimize::Balanced, true)}});
-		return ways;
 	}
 
 	static std::unique_ptr<AttributeWriter> writerFor(const Attributes& attributes)
@@ -275,7 +183,8 @@ private:
 		return attributes ? std::make_unique<AttributeWriter>(*attributes) : nullptr;
 	}
 
-	void keepIfSmaller(
+	void finish(
+	    const Plan& plan,
 	    const Levels& levels,
 	    AttributeWriter* attributes,
 	    Head& head,
@@ -289,16 +198,15 @@ private:
 		writeHead(head, out.bytes);
 		out.info = describe(head, out.bytes.size());
 		out.bytes.insert(out.bytes.end(), chunks.begin(), chunks.end());
-		if (best_.bytes.empty() || out.bytes.size() < best_.bytes.size())
-			best_ = std::move(out);
+		choice_.add(plan.rank, std::move(out));
 	}
 
 	const MeshData& original_;
 	const QuantisedMesh& mesh_;
 	const EncodeOptions& options_;
 	bool classic_;
-	bool repeats_; ///< see repeatsItself()
-	EncodedMesh best_;
+	EncodingWork work_;
+	Choice choice_;
 };
 
 } // namespace

@@ -81,7 +81,9 @@ Schedule makeSchedule(const Levels& levels, int latticeBits, const ScheduleOptio
 			for (most = 0; most < latticeBits - 1 && double(2u << most) <= cell;)
 				++most;
 		}
-		return std::min(most, shiftFor(levels.table(i), levels.positions, options.cellSixteenths));
+		const int width =
+		    i + 1 >= levels.splits() ? options.lastSplitSixteenths : options.cellSixteenths;
+		return std::min(most, shiftFor(levels.table(i), levels.positions, width));
 	};
 	int shift          = shiftOf(0);
 	schedule.baseShift = shift;

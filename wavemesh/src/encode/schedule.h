@@ -15,6 +15,8 @@ struct ScheduleOptions
 	/// Width of a cell over the mean length of the level's edges, in sixteenths; 0: full precision
 	/// from the start.
 	int cellSixteenths = 8;
+	/// The same while the last split is coded, where narrow cells cost the most.
+	int lastSplitSixteenths = 8;
 	/// Bits that a refinement adds to all vertices: 1 is the smallest where surfaces are smooth, 2
 	/// is faster.
 	int bits = 1;
