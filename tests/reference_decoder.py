@@ -2264,22 +2264,31 @@ class Sight:
 
 class Restoration:
     def __init__(self, head, mesh, positions, glue):
-        self.head, self.mesh, self.positions, self.glue = head, mesh, positions, glue
+        self.head, self.mesh = head, mesh
+        self.turned = [0] * mesh.faces
+        self.number = [NONE] * mesh.vertices                # in the restored mesh
+        self.positions = []
+        for v in range(mesh.vertices):
+            first = glue.first_of(v)
+            if first == v:
+                self.number[v] = len(self.positions)
+                self.positions.append(positions[v])
+            else:
+                self.number[v] = self.number[first]
+
+    def face(self, f, turn):
+        a, b, c = (self.number[v] for v in self.mesh.V[3 * f:3 * f + 3])
+        return (a, c, b) if turn else (a, b, c)
+
+    def glued(self):
+        """What there is before anything is read: level J without copies."""
+        return self.positions, [self.face(f, False) for f in range(self.mesh.faces)]
 
     def read(self, decoder):
         """The restored mesh: lattice positions and faces."""
         self.decoder = decoder
         mesh, head = self.mesh, self.head
-        number = [NONE] * mesh.vertices
-        positions = []
-        for v in range(mesh.vertices):
-            first = self.glue.first_of(v)
-            if first == v:
-                number[v] = len(positions)
-                positions.append(self.positions[v])
-            else:
-                number[v] = number[first]
-        self.number = number
+        positions = list(self.positions)
         isolated = head.original_vertices - len(positions)
         if isolated < 0:
             raise corrupt("the original has fewer vertices than level J")
@@ -2288,11 +2297,10 @@ class Restoration:
         copies, turns = AdaptiveUnsigned(32), AdaptiveUnsigned(32)
         step, other = AdaptiveSigned(32), AdaptiveSigned(32)
         left = head.original_faces - mesh.faces
-        turned = [0] * mesh.faces
+        turned = self.turned
         if bit(decoder, flag[0], 255) == 1:
             for f in range(mesh.faces):
                 turned[f] = bit(decoder, turned_bits[self.around(f, turned)], 255)
-        self.turned = turned
         has = [0] * mesh.faces
         same_turned = []                                    # (face, same, turned)
         if bit(decoder, flag[1], 255) == 1:
@@ -2312,13 +2320,9 @@ class Restoration:
             self.half = [[AdaptiveSigned(32) for _ in range(17)] for _ in range(3)]
             self.box([0, 0, 0], [head.bits] * 3, isolated, positions)
 
-        def face(f, turn):
-            a, b, c = (number[v] for v in mesh.V[3 * f:3 * f + 3])
-            return (a, c, b) if turn else (a, b, c)
-
-        faces = [face(f, turned[f]) for f in range(mesh.faces)]
+        faces = [self.face(f, turned[f]) for f in range(mesh.faces)]
         for f, same, others in same_turned:
-            faces += [face(f, turned[f])] * same + [face(f, 1 - turned[f])] * others
+            faces += [self.face(f, turned[f])] * same + [self.face(f, not turned[f])] * others
         last = 0
         for _ in range(left):
             a = last + step.read(decoder)
@@ -2418,7 +2422,7 @@ class ExactNumbers:
     def __init__(self, wide, digits, axes):
         self.wide, self.digits = wide, digits
         self.decimal = bits_of(axes)
-        self.zeros = [[bits_of(4) for _ in range(54)] for _ in range(axes)]
+        self.zeros = [[bits_of(4) for _ in range(55)] for _ in range(axes)]
         self.binary_rows = [ExactRows() for _ in range(axes)]
         self.decimal_rows = [ExactRows() for _ in range(axes)]
 
@@ -2427,7 +2431,7 @@ class ExactNumbers:
             power = float(10 ** self.digits)
 
             def n(x, u):
-                return int(clamp(floor(x * power / u + 0.5), -(1 << 53), 1 << 53)) if isfinite(x * power) else 0
+                return floor(clamp(x * power / u + 0.5, -2.0 ** 53, 2.0 ** 53)) if isfinite(x) else 0
 
             unit = 1
             zeros = self.zeros[k][bitlen(abs(n(p, 1)))]
@@ -2842,6 +2846,13 @@ def read_column(head):
 
 # A row is a tuple of numbers, None if it is missing. read(decoder, a, b, l, r) reads one next to these.
 
+def same(a, b):
+    """Are rows equal? Bit for bit, as zeros of two signs and what is no number are not told by ==."""
+    if a is None or b is None:
+        return a is b
+    return a is b or struct.pack("<%dd" % len(a), *a) == struct.pack("<%dd" % len(b), *b)
+
+
 class ExactCoder:
     def __init__(self, attribute):
         wide, digits = attribute.exact
@@ -3167,14 +3178,14 @@ class Channel:
         c = 3 * (a // 3) + 3 - a % 3 - b % 3                # the third corner
         d = parent.opp[c]
         l = r = None
-        if d != NONE and (old[parent.next[c]] == old[parent.prev[d]] and old[parent.prev[c]] == old[parent.next[d]]):
+        if d != NONE and same(old[parent.next[c]], old[parent.prev[d]]) and same(old[parent.prev[c]], old[parent.next[d]]):
             l, r = old[c], old[d]
         return old[a], old[b], l, r
 
     def read_old_vertex(self, v, around):
         fan = self.mesh.corners[v]
         a = [around[c][0] for c in fan]
-        self.last = self.bit(self.kept[self.last + 2 * any(x != a[0] for x in a)])
+        self.last = self.bit(self.kept[self.last + 2 * (not all(same(x, a[0]) for x in a))])
         for i, c in enumerate(fan):
             if self.last == 1 or self.bit(self.same[1]) == 1:
                 self.rows[c] = a[i] or self.zero
@@ -3185,7 +3196,8 @@ class Channel:
         fan = self.mesh.corners[v]
 
         def expect_the_same(c, d):
-            return around[c][:2] == around[d][:2] or around[c][:2] == around[d][1::-1]
+            (a, b), (x, y) = around[c][:2], around[d][:2]
+            return same(a, x) and same(b, y) or same(a, y) and same(b, x)
 
         self.rows[fan[0]] = self.row(*around[fan[0]])
         if len(fan) == 1:
@@ -3203,7 +3215,7 @@ class Channel:
         others = []
         for c in reversed(fan):
             row = self.rows[c]
-            if row != not_ and row not in others and len(others) < 4:
+            if not any(same(row, x) for x in [not_] + others) and len(others) < 4:
                 others.append(row)
         for n, row in enumerate(others):
             if self.bit(self.other[n]) == 1:
@@ -3312,7 +3324,6 @@ class Decoder:
         self.positions = None
         self.parents = []                                   # of the last split's new vertices
         self.restored = None                                # 12.3: lattice positions, faces
-        self.turned = None                                  # 12.3: of the faces of level J
         self.exact = None                                   # 12.4
         self.order = None                                   # 12.5: (restored face, first corner), numbers of vertices
         self.attributes = Attributes(self.head) if head.features & 8 else None
@@ -3403,18 +3414,29 @@ class Decoder:
 
     def read_features(self):
         """12"""
+        restoration = self.glue and Restoration(self.head, self.mesh, self.positions, self.glue)
         try:
-            self.read_chunks_of_features()
+            self.read_chunks_of_features(restoration)
         except Outcome as outcome:
-            if outcome.name == "Truncated" and self.attributes:
-                self.attributes.do_without_rest(*self.finest())
-                if self.order:
-                    self.attributes.put_in_order(*self.order)
+            if outcome.name == "Truncated":
+                self.do_without_rest(restoration)
             raise
         if self.order and self.attributes:
             self.attributes.put_in_order(*self.order)
 
-    def read_chunks_of_features(self):
+    def do_without_rest(self, restoration):
+        """What there is if the data end in what follows the levels"""
+        restored = self.restored is not None
+        if restoration and not restored:
+            self.restored = restoration.glued()
+        if self.attributes:
+            if restoration and not restored:
+                self.attributes.restore(restoration.number, restoration.turned, self.mesh)
+            self.attributes.do_without_rest(*self.finest())
+            if self.order:
+                self.attributes.put_in_order(*self.order)
+
+    def read_chunks_of_features(self, restoration):
         head = self.head
         for i in range(4):
             if not head.features >> i & 1:
@@ -3430,7 +3452,7 @@ class Decoder:
             digest = int.from_bytes(chunk.payload[:4], "little")
             decoder = RangeDecoder(chunk.payload[4:])
             try:
-                computed = getattr(self, "read_" + kind)(decoder)
+                computed = self.read_R(decoder, restoration) if kind == "R" else getattr(self, "read_" + kind)(decoder)
             except Exhausted:
                 raise corrupt("the range decoder is exhausted in chunk %s" % kind)
             if computed != digest:
@@ -3441,12 +3463,10 @@ class Decoder:
         V = self.mesh.V
         return self.restored or (self.positions, [tuple(V[c:c + 3]) for c in range(0, len(V), 3)])
 
-    def read_R(self, decoder):
-        restoration = Restoration(self.head, self.mesh, self.positions, self.glue)
+    def read_R(self, decoder, restoration):
         self.restored = restoration.read(decoder)
-        self.turned = restoration.turned
         if self.attributes:
-            self.attributes.restore(restoration.number, self.turned, self.mesh)
+            self.attributes.restore(restoration.number, restoration.turned, self.mesh)
         return lattice_digest(self.restored[0], [v for t in self.restored[1] for v in t])
 
     def read_O(self, decoder):

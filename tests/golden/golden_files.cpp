@@ -3,11 +3,10 @@
 
 #include "codec_check.h"
 #include "container/container.h"
+#include "golden_meshes.h"
 #include "mesh_families.h"
 
-#include <cmath>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
@@ -51,6 +50,14 @@ std::string indexLine(const Golden& g)
 
 namespace {
 
+EncodedMesh encoded(const MeshData& mesh, const EncodeOptions& options)
+{
+	auto file = encode(mesh, options);
+	if (!file.ok())
+		throw std::runtime_error("a golden's mesh is refused: " + file.status().what);
+	return std::move(*file);
+}
+
 Bytes fileOf(const MeshData& mesh, int bits, int lifting, Wgc wgc, double step = 0, int effort = 2)
 {
 	EncodeOptions o;
@@ -61,7 +68,7 @@ Bytes fileOf(const MeshData& mesh, int bits, int lifting, Wgc wgc, double step =
 	o.step     = step;
 	o.effort   = effort;
 	o.mode     = Mode::Classic;
-	return encode(mesh, o).value().bytes;
+	return encoded(mesh, o).bytes;
 }
 
 EncodedMesh compactFileOf(const MeshData& mesh, int bits, int effort = 2)
@@ -71,68 +78,7 @@ EncodedMesh compactFileOf(const MeshData& mesh, int bits, int effort = 2)
 	o.mode     = Mode::Compact;
 	o.bits     = bits;
 	o.effort   = effort;
-	return encode(mesh, o).value();
-}
-
-/// A sphere one of whose vertices belongs to another sphere too, and an edge with three faces.
-MeshData notManifold()
-{
-	MeshData m      = joined({makeIcosphere(3), moved(makeIcosphere(2), 2, 0, 0)});
-	const Index own = m.triangles.front()[0], other = m.triangles.back()[0];
-	for (auto& t : m.triangles)
-		for (auto& v : t)
-			if (v == other)
-				v = own;
-	const auto edge = m.triangles[5];
-	m.positions.push_back({0.5, 1.5, 2});
-	m.triangles.push_back({edge[1], edge[0], Index(m.positions.size() - 1)});
-	return m;
-}
-
-/// One attribute of each coding: on lattices, on an octahedron, exact; of vertices, faces, corners
-/// with a seam, the mesh; and edges of polygons.
-MeshData withAttributes(MeshData m)
-{
-	const auto add = [&](AttributeOf of, AttributeKind kind, NumberType type, int columns,
-	                     int bits) {
-		Attribute a;
-		a.of         = of;
-		a.kind       = kind;
-		a.type       = type;
-		a.components = columns;
-		a.bits       = bits;
-		m.attributes.push_back(a);
-		return std::ref(m.attributes.back().values);
-	};
-	m.attributes.reserve(8);
-	auto& colour = add(AttributeOf::Vertex, AttributeKind::Colour, NumberType::Integer, 4, 0).get();
-	auto& quality = add(AttributeOf::Vertex, AttributeKind::Quality, NumberType::Float, 1, 0).get();
-	auto& normal  = add(AttributeOf::Vertex, AttributeKind::Normal, NumberType::Float, 3, 8).get();
-	for (const auto& p : m.positions) {
-		colour.insert(
-		    colour.end(), {std::floor(99 + 40 * p[0]), std::floor(150 + 9 * p[1] * p[2]), 7, 255});
-		quality.push_back(double(float(p[0] * p[1] / 3)));
-		const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-		for (const double x : p)
-			normal.push_back(length > 0 ? double(float(x / length)) : 0);
-	}
-	auto& face  = add(AttributeOf::Face, AttributeKind::Quality, NumberType::Integer, 1, 0).get();
-	auto& edges = add(AttributeOf::Face, AttributeKind::FauxEdges, NumberType::Integer, 1, 0).get();
-	auto& wedge =
-	    add(AttributeOf::Corner, AttributeKind::TexCoord, NumberType::Double, 3, 10).get();
-	for (std::size_t f = 0; f < m.triangles.size(); ++f) {
-		const double chart = m.positions[m.triangles[f][0]][0] > 0.2 ? 1 : 0;
-		face.push_back(double(f / 16));
-		edges.push_back(f % 3 == 1 ? double(1 << f % 2) : 0);
-		for (const Index v : m.triangles[f])
-			wedge.insert(wedge.end(), {m.positions[v][1] + chart, m.positions[v][2], chart});
-	}
-	auto& placed =
-	    add(AttributeOf::Mesh, AttributeKind::Transform, NumberType::Double, 16, 0).get();
-	for (int k = 0; k < 16; ++k)
-		placed.push_back(k % 5 == 0 ? 1 : 0.25 * k);
-	m.textures = {"wood.png"};
-	return m;
+	return encoded(mesh, o);
 }
 
 /// The finest mesh is as it was, in all.
@@ -142,7 +88,36 @@ Bytes promisingFileOf(const MeshData& mesh, Mode mode, bool order, bool exact)
 	o.mode      = mode;
 	o.keepOrder = order;
 	o.exact     = exact;
-	return encode(mesh, o).value().bytes;
+	return encoded(mesh, o).bytes;
+}
+
+/// Every kind of row crossed with every way to make the finest mesh the original.
+/// @param add  callable (name, bytes)
+template <class Add>
+void goodAttributes(const Add& add)
+{
+	constexpr auto kFloat = NumberType::Float, kDouble = NumberType::Double;
+	const MeshData sphere = makeFlippedSphere(90, 3), centres = makeKleetope(makeIcosphere(2));
+	add("compact_turned_order_corners",
+	    promisingFileOf(
+	        withCorners(turned(makeBumpySphere(90, 1)), kFloat, 11), Mode::Compact, true, false));
+	add("turned_order_exact_corners",
+	    promisingFileOf(withCorners(turned(notManifold()), kDouble, 0), Mode::Classic, true, true));
+	add("compact_flipped_corners",
+	    promisingFileOf(withCorners(sphere, kFloat, 9), Mode::Compact, false, false));
+	add("centres_corners",
+	    promisingFileOf(withCorners(centres, kFloat, 8), Mode::Classic, false, false));
+	add("compact_not_finite_floats",
+	    promisingFileOf(withNotFinite(makeTerrain(70, 2), kFloat), Mode::Compact, true, true));
+	add("not_finite_doubles",
+	    promisingFileOf(withNotFinite(sphere, kDouble), Mode::Classic, false, true));
+	add("compact_normals", promisingFileOf(withNormals(sphere), Mode::Compact, false, false));
+	add("order_normals", promisingFileOf(withNormals(notManifold()), Mode::Classic, true, false));
+	add("compact_flags_order",
+	    promisingFileOf(withFlags(turned(makeGrid(8, 7))), Mode::Compact, true, false));
+	MeshData points = makeIcosphere(2);
+	points.triangles.clear();
+	add("compact_points", promisingFileOf(withFlags(points), Mode::Compact, true, true));
 }
 
 std::vector<Golden> goodOnes()
@@ -191,6 +166,7 @@ std::vector<Golden> goodOnes()
 	    promisingFileOf(withAttributes(makeBumpySphere(160, 1)), Mode::Compact, false, false));
 	add("attributes_order_not_manifold",
 	    promisingFileOf(withAttributes(notManifold()), Mode::Classic, true, true));
+	goodAttributes(add);
 	add("far_away_wide_head", fileOf(moved(makeIcosphere(2), 1e7 + 0.1, 0.3, -5), 12, 0, Wgc::Off));
 	return all;
 }
@@ -245,11 +221,59 @@ void badCompactOnes(const Add& add)
 	    withHead(file.bytes, [](Head& h) { h.predictors = PredictorSet(3); }), StatusCode::Corrupt);
 }
 
+/// What follows the levels: cut there, and contradicting itself.
+/// @param add  callable (name, bytes, status)
+template <class Add>
+void badFeatures(const Add& add)
+{
+	const Bytes file = promisingFileOf(
+	    withFlags(withCorners(turned(makeGrid(6, 5)), NumberType::Float, 11)), Mode::Compact, true,
+	    true);
+	const auto chunks = chunksOf(file);
+	const auto& level = chunks[chunks.size() - 5]; // the last one, before R, O, X and A
+	add("cut_in_attributes_of_a_level", cutAt(file, level.checksum - 20), StatusCode::Truncated);
+	for (std::size_t i = chunks.size() - 4; i < chunks.size(); ++i)
+		add(std::string("cut_in_") + char(chunks[i].type), cutAt(file, chunks[i].checksum - 1),
+		    StatusCode::Truncated);
+	const Bytes classic = promisingFileOf(
+	    withNotFinite(notManifold(), NumberType::Float), Mode::Classic, false, true);
+	const auto places = chunksOf(classic);
+	add("classic_cut_in_attributes_of_a_level",
+	    cutAt(classic, places[places.size() - 4].checksum - 40), StatusCode::Truncated);
+	add("cut_before_R", cutAt(classic, places[places.size() - 3].begin), StatusCode::Truncated);
+
+	for (std::size_t i = chunks.size() - 4; i < chunks.size(); ++i) {
+		Bytes digest = file;
+		digest[chunks[i].payload] ^= 1;
+		mendChecksum(digest, chunks[i]);
+		add(std::string("other_digest_of_") + char(chunks[i].type), digest,
+		    StatusCode::ChecksumMismatch);
+	}
+	add("features_16", withHead(file, [](Head& h) { h.features |= 16; }), StatusCode::Corrupt);
+	add("length_of_order", withHead(file, [](Head& h) { ++h.featureBytes[kOrder]; }),
+	    StatusCode::Corrupt);
+	add("fewer_faces_than_the_finest_level",
+	    withHead(file, [](Head& h) { h.faces = h.rows.back().faces - 1; }), StatusCode::Corrupt);
+	add("fewer_faces_than_copies", withHead(file, [](Head& h) { h.faces = h.rows.back().faces; }),
+	    StatusCode::Corrupt);
+	add("attribute_of_nothing", withHead(file, [](Head& h) { h.channels[0].of = AttributeOf(4); }),
+	    StatusCode::Corrupt);
+	add("attribute_with_a_step_of_0",
+	    withHead(
+	        file,
+	        [](Head& h) {
+		        h.channels[0].columns[0] = {0, 0, 11, false};
+	        }),
+	    StatusCode::Corrupt);
+	add("attribute_on_an_octahedron_of_21_bits",
+	    withHead(file, [](Head& h) { h.channels[1].octahedron = 21; }), StatusCode::Corrupt);
+}
+
 std::vector<Golden> badOnes()
 {
 	std::vector<Golden> all;
-	const auto add = [&](const char* name, const Bytes& bytes, StatusCode code) {
-		all.push_back({std::string("bad_") + name + ".wmc", bytes, static_cast<int>(code)});
+	const auto add = [&](const std::string& name, const Bytes& bytes, StatusCode code) {
+		all.push_back({"bad_" + name + ".wmc", bytes, static_cast<int>(code)});
 	};
 	const Bytes file  = fileOf(makeFlippedSphere(110, 15), 12, 0, Wgc::Off);
 	const auto chunks = chunksOf(file);
@@ -291,6 +315,7 @@ std::vector<Golden> badOnes()
 	add("one_face_more", withHead(file, [](Head& h) { ++h.rows.back().faces; }),
 	    StatusCode::Corrupt);
 	badCompactOnes(add);
+	badFeatures(add);
 	add("base_too_large",
 	    withHead(file, [](Head& h) { h.rows[0].vertices = 3 * h.rows[0].faces + 1; }),
 	    StatusCode::Corrupt);
