@@ -38,7 +38,8 @@ def differences(wmc, folder, path):
     last = reference.Decoder(data).head.J
     for level in sorted({0, last // 2, last}):
         output = os.path.join(folder, os.path.basename(path) + ".obj")
-        done = subprocess.run([wmc, "decode", path, output, "--level", str(level)], capture_output=True, text=True)
+        done = subprocess.run([wmc, "decode", path, output, "--level", str(level)], capture_output=True,
+                              text=True, errors="backslashreplace")
         if done.returncode != 0:
             return "wmc: " + done.stderr
         decoder = reference.Decoder(data)
