@@ -4,6 +4,7 @@
 #include "mesh_files.h"
 #include "run_wmc.h"
 
+#include <wavemesh/codec.h>
 #include <wavemesh/vcg_attributes.h>
 
 #include <cmath>
@@ -121,6 +122,26 @@ TEST_F(AttributeFiles, TexturesOfAnObjComeBackWithTheirNames)
 	ASSERT_NE(colours, nullptr);
 	EXPECT_EQ(colours->values, mesh.attributes[1].values);
 	EXPECT_EQ(info()["textures"], mesh.textures);
+}
+
+TEST_F(AttributeFiles, NamesOfTexturesWithLineEndsDoNotBreakAFileOfLines)
+{
+	MeshData mesh = makeBumpySphere(200, 1);
+	addTexture(mesh);
+	mesh.textures = {"wood\nend_header\n", "a\x1b[31m.png"};
+	writeAll(path("a.wmc"), encode(mesh).value().bytes);
+	const RunResult shown = runWmc({"info", path("a.wmc")});
+	EXPECT_NE(shown.out.find("texture wood?end_header?\ntexture a?[31m.png\n"), std::string::npos)
+	    << shown.out;
+	for (const std::string name : {"b.ply", "b.obj"}) {
+		const RunResult decoded = runWmc({"decode", path("a.wmc"), path(name)});
+		EXPECT_EQ(decoded.code, 0) << decoded.err;
+		EXPECT_NE(decoded.err.find("the name of texture 'a?[31m.png'"), std::string::npos)
+		    << decoded.err;
+		const MeshData back = tool::loadMesh(path(name), kEverything);
+		EXPECT_EQ(back.triangles.size(), mesh.triangles.size()) << name;
+		EXPECT_EQ(back.textures.size(), 2u) << name;
+	}
 }
 
 TEST_F(AttributeFiles, ColoursOfAnOffComeBack)

@@ -55,6 +55,21 @@ TEST_F(WmcTest, DamagedMeshFilesAreRefusedInOneLine)
 	}
 }
 
+TEST_F(WmcTest, ACoordinateThatIsNotFiniteIsRefusedWithTheOptionThatKeepsIt)
+{
+	writeAll(
+	    path("a.ply"),
+	    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+	    "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+	    "end_header\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n");
+	const RunResult refused = runWmc({"encode", path("a.ply"), path("a.wmc")});
+	EXPECT_EQ(refused.code, 1);
+	EXPECT_NE(refused.err.find("vertex 1 has a coordinate that is not finite"), std::string::npos)
+	    << refused.err;
+	EXPECT_NE(refused.err.find("--exact"), std::string::npos) << refused.err;
+	EXPECT_EQ(runWmc({"encode", path("a.ply"), path("a.wmc"), "--exact"}).code, 0);
+}
+
 TEST_F(WmcTest, BinaryPlyAndStlCutAnywhereAreRefused)
 {
 	for (const std::string format : {"ply", "stl"}) {

@@ -109,6 +109,30 @@ TEST_F(PlyProperties, OfAPolygonAreThoseOfItsTriangles)
 	    of["face "].values, (std::vector<double> {1, 2, 3, 4, 1, 2, 3, 4, 1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
+TEST_F(PlyProperties, ThatAreAPartOfAColourOrANormalAreKeptAsNumbersOfTheirOwn)
+{
+	write(
+	    "a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"
+	             "property float x\nproperty float y\nproperty float z\nproperty float nx\n"
+	             "property uchar red\nproperty uchar green\nproperty float s\n"
+	             "element face 1\nproperty list uchar int vertex_indices\n"
+	             "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+	             "property uchar alpha\nproperty int texnumber\nend_header\n"
+	             "0 0 0 0.5 1 2 7\n1 0 0 1.5 3 4 8\n0 1 0 2.5 5 6 9\n3 0 1 2 9 8 7 6 5\n");
+	const MeshData back = throughWmc("a.ply", {"--keep-order", "--attributes", "all"});
+	EXPECT_EQ(whenEncoded_ + whenDecoded_, "");
+	auto of = byName(back);
+	EXPECT_EQ(of.size(), 6u);
+	EXPECT_EQ(of["vertex nx"].values, (std::vector<double> {0.5, 1.5, 2.5}));
+	EXPECT_EQ(of["vertex red"].values, (std::vector<double> {1, 3, 5}));
+	EXPECT_EQ(of["vertex green"].values, (std::vector<double> {2, 4, 6}));
+	EXPECT_EQ(of["vertex s"].values, (std::vector<double> {7, 8, 9}));
+	EXPECT_EQ(of["face texnumber"].values, (std::vector<double> {5}));
+	EXPECT_EQ(of["face "].values, (std::vector<double> {9, 8, 7, 6})); // a whole colour
+	// No colour is made up where other numbers are not wanted.
+	EXPECT_TRUE(tool::loadMesh(path("a.ply"), kVertexColour).attributes.empty());
+}
+
 TEST_F(PlyProperties, ThatCannotBeKeptAreNamed)
 {
 	write(

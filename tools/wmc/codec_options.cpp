@@ -5,6 +5,7 @@
 #include "failure.h"
 
 #include <chrono>
+#include <cmath>
 
 namespace wavemesh::tool {
 
@@ -195,6 +196,19 @@ std::string messageOf(const std::string& path, const Status& status)
 	return message;
 }
 
+namespace {
+
+bool isFinite(const MeshData& mesh)
+{
+	for (const auto& p : mesh.positions)
+		for (const double x : p)
+			if (!std::isfinite(x))
+				return false;
+	return true;
+}
+
+} // namespace
+
 EncodedMesh encodeMesh(
     const std::string& path, const MeshData& mesh, const EncodeOptions& options, double* seconds)
 {
@@ -206,7 +220,9 @@ EncodedMesh encodeMesh(
 	if (seconds)
 		*seconds = watch.seconds();
 	if (!encoded.ok())
-		throw Failure(messageOf(path, encoded.status()));
+		throw Failure(
+		    messageOf(path, encoded.status()) +
+		    (isFinite(mesh) || options.exact ? "" : " (option --exact)"));
 	return std::move(encoded.value());
 }
 

@@ -220,6 +220,8 @@ MeshData loadMesh(const std::string& path, unsigned channels, std::vector<std::s
 			throw Failure(path + ": cannot be read as a mesh: " + wrong);
 		if (format == Format::Ply && (channels & kCustom))
 			own = readPlyProperties(file);
+		if (format == Format::Ply)
+			channels &= ~channelsInPart(file);
 	}
 	FullMesh m;
 	ProgressLine line("reading " + path);

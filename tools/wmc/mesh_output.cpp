@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attribute_options.h"
+#include "console.h"
 #include "failure.h"
 #include "file_io.h"
 #include "full_mesh.h"
@@ -139,7 +140,7 @@ void writeMaterials(const MeshData& mesh, const std::string& path)
 	OutputFile out(materialsPath(path));
 	TextMesh text(out);
 	for (std::size_t i = 0; i < mesh.textures.size(); ++i)
-		text << "newmtl texture" << i << "\nKd 1 1 1\nmap_Kd " << mesh.textures[i] << "\n";
+		text << "newmtl texture" << i << "\nKd 1 1 1\nmap_Kd " << visible(mesh.textures[i]) << "\n";
 	text.flush();
 	out.commit();
 }
@@ -281,7 +282,8 @@ bool isOwnProperty(const MeshData& mesh, const Attribute& a)
 	       (a.of == AttributeOf::Vertex || a.of == AttributeOf::Face) &&
 	       (a.components == 1 || (a.components == 3 && a.type != NumberType::Integer)) &&
 	       !a.name.empty() && a.name.size() <= kLongest &&
-	       std::all_of(a.name.begin(), a.name.end(), isVisible) && !isNameInPly(a.of, a.name) &&
+	       std::all_of(a.name.begin(), a.name.end(), isVisible) &&
+	       !isNameInPly(mesh, a.of, a.name) &&
 	       &*std::find_if(mesh.attributes.begin(), mesh.attributes.end(), isFirst) == &a;
 }
 
@@ -331,6 +333,8 @@ void writeBinary(const MeshData& mesh, const std::string& path, const OutputFile
 	FullMesh m;
 	fromMeshData(mesh, m);
 	setAttributes(mesh, m);
+	for (std::string& name : m.textures)
+		name = visible(name);
 	io::PlyInfo ply;
 	ply.mask = maskOf(channelsOf(mesh));
 	if (!isStl)
@@ -371,6 +375,10 @@ std::vector<std::string> whatIsNotHeld(const MeshData& mesh, Format format)
 	for (const Attribute& a : mesh.attributes)
 		if (!holds(format, mesh, a))
 			names.push_back(nameOf(a.of, a.kind, a.name));
+	for (const std::string& name : mesh.textures) // of lines of text
+		if (visible(name) != name && isTextured(mesh) &&
+		    (format == Format::Ply || format == Format::Obj))
+			names.push_back("the name of texture '" + visible(name) + "'");
 	return names;
 }
 

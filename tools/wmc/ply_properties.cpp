@@ -3,6 +3,8 @@
 
 #include "ply_reader.h"
 
+#include <wavemesh/vcg_attributes.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,66 +15,141 @@ using namespace ply;
 
 enum : unsigned { kFloat = 1, kDouble = 2, kByte = 4, kInt = 8, kReal = kFloat | kDouble };
 
+/// Properties that say something only together.
+enum Group { kAlone, kNormal, kColour, kDiffuse, kTexture, kSt, kWedges };
+
 /// A property as VCGLib's importer takes it.
 struct Known
 {
 	const char* name;
 	unsigned types;
+	Group group     = kAlone;
+	bool isOptional = false; ///< the others of the group do without it
 };
 
 constexpr Known kOfVertex[] = {
     {"x", kReal},
     {"y", kReal},
     {"z", kReal},
-    {"nx", kReal},
-    {"ny", kReal},
-    {"nz", kReal},
+    {"nx", kReal, kNormal},
+    {"ny", kReal, kNormal},
+    {"nz", kReal, kNormal},
     {"quality", kReal},
     {"confidence", kFloat},
     {"radius", kReal},
-    {"red", kByte},
-    {"green", kByte},
-    {"blue", kByte},
-    {"alpha", kByte},
-    {"diffuse_red", kByte},
-    {"diffuse_green", kByte},
-    {"diffuse_blue", kByte},
-    {"diffuse_alpha", kByte},
-    {"texture_u", kReal},
-    {"texture_v", kReal},
-    {"s", kFloat},
-    {"t", kFloat},
+    {"red", kByte, kColour},
+    {"green", kByte, kColour},
+    {"blue", kByte, kColour},
+    {"alpha", kByte, kColour, true},
+    {"diffuse_red", kByte, kDiffuse},
+    {"diffuse_green", kByte, kDiffuse},
+    {"diffuse_blue", kByte, kDiffuse},
+    {"diffuse_alpha", kByte, kDiffuse, true},
+    {"texture_u", kReal, kTexture},
+    {"texture_v", kReal, kTexture},
+    {"s", kFloat, kSt},
+    {"t", kFloat, kSt},
     {"flags", kInt}};
 
-constexpr Known kOfFace[] = {{"nx", kReal},         {"ny", kReal},        {"nz", kReal},
-                             {"quality", kReal},    {"red", kByte},       {"green", kByte},
-                             {"blue", kByte},       {"alpha", kByte},     {"flags", kInt},
-                             {"texnumber", kInt},   {"texcoord", kFloat}, {"vertex_indices", kInt},
-                             {"vertex_index", kInt}};
+constexpr Known kOfFace[] = {
+    {"nx", kReal, kNormal},
+    {"ny", kReal, kNormal},
+    {"nz", kReal, kNormal},
+    {"quality", kReal},
+    {"red", kByte, kColour},
+    {"green", kByte, kColour},
+    {"blue", kByte, kColour},
+    {"alpha", kByte, kColour, true},
+    {"flags", kInt},
+    {"texnumber", kInt, kWedges, true},
+    {"texcoord", kFloat, kWedges},
+    {"vertex_indices", kInt},
+    {"vertex_index", kInt}};
+
+unsigned channelOf(AttributeOf of, Group group)
+{
+	const bool ofVertex = of == AttributeOf::Vertex;
+	switch (group) {
+	case kNormal:
+		return ofVertex ? kVertexNormal : kFaceNormal;
+	case kColour:
+	case kDiffuse:
+		return ofVertex ? kVertexColour : kFaceColour;
+	case kTexture:
+	case kSt:
+		return kVertexTexCoord;
+	case kWedges:
+		return kWedgeTexCoord;
+	case kAlone:
+		break;
+	}
+	return 0;
+}
+
+/// Of vertices or faces.
+struct Names
+{
+	const Known *begin, *end;
+};
+Names namesOf(AttributeOf of)
+{
+	if (of == AttributeOf::Vertex)
+		return {std::begin(kOfVertex), std::end(kOfVertex)};
+	return {std::begin(kOfFace), std::end(kOfFace)};
+}
 
 const Known* find(AttributeOf of, const std::string& name)
 {
+	const Names names  = namesOf(of);
 	const auto isIt    = [&](const Known& k) { return name == k.name; };
-	const Known* end   = of == AttributeOf::Vertex ? std::end(kOfVertex) : std::end(kOfFace);
-	const Known* found = std::find_if(
-	    of == AttributeOf::Vertex ? std::begin(kOfVertex) : std::begin(kOfFace), end, isIt);
-	return found == end ? nullptr : found;
+	const Known* found = std::find_if(names.begin, names.end, isIt);
+	return found == names.end ? nullptr : found;
+}
+
+unsigned typeOf(const Property& p)
+{
+	if (p.item.isFloating)
+		return p.item.bytes == 4 ? kFloat : kDouble;
+	if (p.item.bytes == 4)
+		return p.item.isSigned ? kInt : 0u;
+	return p.item.bytes == 1 && !p.item.isSigned ? kByte : 0u;
+}
+
+/// The name that the importer knows it by, if it is of a type that it takes.
+const Known* whatItIs(AttributeOf of, const Property& p)
+{
+	const Known* known = find(of, p.name);
+	const bool fits    = known && (known->types & typeOf(p)) && p.isList == (p.name == "texcoord");
+	return fits ? known : nullptr;
+}
+
+/// Has the element all of a group, and of one type?
+bool isWhole(AttributeOf of, const Element& e, Group group)
+{
+	const Names names = namesOf(of);
+	unsigned types    = ~0u;
+	for (const Known* k = names.begin; k != names.end; ++k) {
+		if (k->group != group || k->isOptional)
+			continue;
+		const auto isIt  = [&](const Property& p) { return whatItIs(of, p) == k; };
+		const auto found = std::find_if(e.properties.begin(), e.properties.end(), isIt);
+		if (found == e.properties.end())
+			return false;
+		types &= typeOf(*found);
+	}
+	return types != 0;
 }
 
 bool isKnown(AttributeOf of, const Element& e, const Property& p)
 {
 	if (isFaceList(e, p))
 		return true;
-	const Known* known   = find(of, p.name);
-	const unsigned type  = p.item.isFloating ? (p.item.bytes == 4 ? kFloat : kDouble)
-	                       : p.item.bytes == 4 && p.item.isSigned  ? kInt
-	                       : p.item.bytes == 1 && !p.item.isSigned ? kByte
-	                                                               : 0u;
 	const auto isQuality = [](const Property& q) { return q.name == "quality"; };
 	// Both are the quality; the importer takes one.
 	if (p.name == "confidence" && std::any_of(e.properties.begin(), e.properties.end(), isQuality))
 		return false;
-	return known && (known->types & type) && p.isList == (p.name == "texcoord");
+	const Known* known = whatItIs(of, p);
+	return known && (known->group == kAlone || isWhole(of, e, known->group));
 }
 
 /// A property on its way to become an attribute.
@@ -133,7 +210,7 @@ void repeatRow(Column& c, std::size_t times)
 			values.push_back(values[c.rowBegins + std::size_t(k)]);
 }
 
-bool isWhole(double x)
+bool isWholeNumber(double x)
 {
 	return std::abs(x) <= 9007199254740992.0 && x == std::floor(x);
 }
@@ -159,7 +236,7 @@ void readElement(const Element& e, Numbers& numbers, PlyProperties& out)
 		auto& values = c.attribute.values;
 		// A text may have anything.
 		if (c.attribute.type == NumberType::Integer &&
-		    !std::all_of(values.begin(), values.end(), isWhole))
+		    !std::all_of(values.begin(), values.end(), isWholeNumber))
 			c.attribute.type = NumberType::Double;
 		if (c.isRead && !values.empty())
 			out.attributes.push_back(std::move(c.attribute));
@@ -195,9 +272,38 @@ PlyProperties readPlyProperties(const Bytes& file)
 	return out;
 }
 
-bool isNameInPly(AttributeOf of, const std::string& name)
+unsigned channelsInPart(const Bytes& file)
 {
-	return find(of, name) != nullptr;
+	Head head;
+	unsigned part = 0, whole = 0;
+	if (!parseHead(file, head).empty())
+		return 0;
+	for (const Element& e : head.elements) {
+		if (e.name != "vertex" && e.name != "face")
+			continue;
+		const AttributeOf of = e.name == "face" ? AttributeOf::Face : AttributeOf::Vertex;
+		for (const Property& p : e.properties)
+			if (const Known* known = whatItIs(of, p); known && known->group != kAlone)
+				(isWhole(of, e, known->group) ? whole : part) |= channelOf(of, known->group);
+	}
+	return part & ~whole;
+}
+
+bool isNameInPly(const MeshData& mesh, AttributeOf of, const std::string& name)
+{
+	const Known* known = find(of, name);
+	if (!known || known->group == kAlone)
+		return known != nullptr;
+	if (channelsOf(mesh) & channelOf(of, known->group))
+		return true;
+	const Names names  = namesOf(of);
+	const auto isThere = [&](const Known& k) {
+		return k.group != known->group || k.isOptional ||
+		       std::any_of(mesh.attributes.begin(), mesh.attributes.end(), [&](const Attribute& a) {
+			       return a.of == of && a.kind == AttributeKind::Custom && a.name == k.name;
+		       });
+	};
+	return std::all_of(names.begin, names.end, isThere);
 }
 
 } // namespace wavemesh::tool

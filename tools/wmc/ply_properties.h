@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// What a PLY has of its own: properties of vertices and faces that no format names, as
-/// user-defined attributes. VCGLib's importer would want their names first, and writes beyond its
-/// faces where one of these is a polygon.
+/// What a PLY has of its own: properties of vertices and faces that no format names, or of which it
+/// has a part only, such as red without green and blue; as user-defined attributes. VCGLib's
+/// importer would want their names first, and writes beyond its faces where one of these is a
+/// polygon.
 #pragma once
 
 #include "file_io.h"
@@ -26,7 +27,11 @@ struct PlyProperties
 /// @pre whatIsWrongWithPly(file) is empty
 PlyProperties readPlyProperties(const Bytes& file);
 
-/// Has the name a meaning in a PLY, for a vertex or a face?
-bool isNameInPly(AttributeOf of, const std::string& name);
+/// Channels of Channel (wavemesh/vcg_attributes.h) of which the file has a part only: VCGLib makes
+/// up the rest of a colour.
+unsigned channelsInPart(const Bytes& file);
+
+/// Has the name a meaning in a PLY of this mesh, for a vertex or a face?
+bool isNameInPly(const MeshData& mesh, AttributeOf of, const std::string& name);
 
 } // namespace wavemesh::tool

@@ -49,7 +49,8 @@ makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, doubl
 			if (!std::isfinite(x))
 				return Status(
 				    StatusCode::InvalidArgument,
-				    "vertex " + std::to_string(i) + " has a coordinate that is not finite");
+				    "vertex " + std::to_string(i) +
+				        " has a coordinate that is not finite: only exact coordinates keep it");
 			low[k]  = i == 0 ? x : std::min(low[k], x);
 			high[k] = i == 0 ? x : std::max(high[k], x);
 		}

@@ -3,7 +3,6 @@
 
 #include "mesh/quantization.h"
 
-#include <limits>
 #include <numeric>
 
 namespace wavemesh {
@@ -18,10 +17,7 @@ Status checkMesh(const MeshData& mesh, const MultiresolutionOptions& options)
 		return {StatusCode::InvalidArgument, "lifting must be off or the k of a k-disc, 0 to 2"};
 	if (mesh.triangles.empty())
 		return {StatusCode::Unsupported, "the mesh has no faces"};
-	if (mesh.positions.size() > std::numeric_limits<std::int32_t>::max() / 3 ||
-	    mesh.triangles.size() > std::numeric_limits<std::int32_t>::max() / 3)
-		return {StatusCode::LimitExceeded, "the mesh has more than 715 million vertices or faces"};
-	return {};
+	return checkCounts(mesh.positions.size(), mesh.triangles.size());
 }
 
 } // namespace
