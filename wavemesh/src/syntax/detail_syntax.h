@@ -10,7 +10,29 @@
 #include "mesh/integer_math.h"
 #include "multires/refinement.h"
 
+#include <memory>
+#include <vector>
+
 namespace wavemesh {
+
+/// Rows of models, each made when it is first asked for: most contexts never occur in a small file.
+class ModelRows
+{
+public:
+	ModelRows(int rows, int width) : rows_(std::size_t(rows)), width_(std::size_t(width)) {}
+
+	AdaptiveBit* row(int i)
+	{
+		std::unique_ptr<AdaptiveBit[]>& row = rows_[std::size_t(i)];
+		if (!row)
+			row = std::make_unique<AdaptiveBit[]>(width_);
+		return row.get();
+	}
+
+private:
+	std::vector<std::unique_ptr<AdaptiveBit[]>> rows_;
+	std::size_t width_;
+};
 
 /// Learned state of the geometry; lives through all levels of a file.
 class DetailModels
@@ -23,12 +45,12 @@ public:
 	static constexpr int kMagnitudes = 34;
 	static constexpr int kOffsets    = 21; ///< signed octaves of the smooth prediction
 
-	std::vector<AdaptiveBit> byAxis {3 * kNodes};
-	std::vector<AdaptiveBit> byLength {3 * kLengths * kNodes};
-	std::vector<AdaptiveBit> byNeighbours {kMagnitudes * kMagnitudes * kNodes};
-	std::vector<AdaptiveBit> byOtherAxes {3 * kMagnitudes * (kLengths / 4 + 1) * kNodes};
-	std::vector<AdaptiveBit> byOffset {kOffsets * (kLengths / 2) * kNodes};
-	std::vector<AdaptiveBit> byOffsetAndNeighbours {kOffsets * kMagnitudes * kNodes};
+	ModelRows byAxis {3, kNodes};
+	ModelRows byLength {3 * kLengths, kNodes};
+	ModelRows byNeighbours {kMagnitudes * kMagnitudes, kNodes};
+	ModelRows byOtherAxes {3 * kMagnitudes * (kLengths / 4 + 1), kNodes};
+	ModelRows byOffset {kOffsets * (kLengths / 2), kNodes};
+	ModelRows byOffsetAndNeighbours {kOffsets * kMagnitudes, kNodes};
 	Mixer<kInputs> mixer {kNodes};
 
 	/// #vertices so far: 1-norm of the detail each was born with.
@@ -200,18 +222,15 @@ private:
 		DetailModels& m  = models_;
 		const int offset = context_.offset[std::size_t(axis)];
 		const int other  = axis == 0 ? context_.near : magnitudeClass(known);
-		const auto row   = [](std::vector<AdaptiveBit>& table, int i) {
-            return &table[std::size_t(i) * DetailModels::kNodes];
-		};
-		rows_ = {
-		    row(m.byAxis, axis),
-		    row(m.byLength, axis * DetailModels::kLengths + context_.length),
-		    row(m.byNeighbours, context_.near * DetailModels::kMagnitudes + context_.born),
-		    row(m.byOtherAxes,
-		        (axis * DetailModels::kMagnitudes + other) * (DetailModels::kLengths / 4 + 1) +
-		            context_.length / 4),
-		    row(m.byOffset, offset * (DetailModels::kLengths / 2) + context_.length / 2),
-		    row(m.byOffsetAndNeighbours, offset * DetailModels::kMagnitudes + context_.near)};
+		rows_            = {
+		               m.byAxis.row(axis),
+		               m.byLength.row(axis * DetailModels::kLengths + context_.length),
+		               m.byNeighbours.row(context_.near * DetailModels::kMagnitudes + context_.born),
+		               m.byOtherAxes.row(
+		                   (axis * DetailModels::kMagnitudes + other) * (DetailModels::kLengths / 4 + 1) +
+		                   context_.length / 4),
+		               m.byOffset.row(offset * (DetailModels::kLengths / 2) + context_.length / 2),
+		               m.byOffsetAndNeighbours.row(offset * DetailModels::kMagnitudes + context_.near)};
 	}
 
 	bool codeNode(int node, bool value)
