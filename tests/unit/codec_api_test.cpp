@@ -101,8 +101,8 @@ TEST(Encode, WgcAuto_IsOffForLevels)
 TEST(Encode, OfASmallMesh_ForSize_IsTheSmallestAndBalancedWithin3Percent)
 {
 	for (const MeshData& mesh :
-	     {makeStarPrism(16, 20), makeBumpySphere(1500, 122), makeHoledPlate(2, 4), makeCube(),
-	      makeTerrain(900, 3), makeFlatGrid(20, 30)})
+	     {makeStarPrism(16, 20), makeBumpySphere(500, 122), makeHoledPlate(2, 4), makeCube(),
+	      makeTerrain(300, 3), makeFlatGrid(9, 12)})
 		for (const Mode mode : {Mode::Classic, Mode::Compact})
 			for (const int effort : {1, 2, 3}) {
 				EncodeOptions o;
