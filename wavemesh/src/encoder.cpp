@@ -81,6 +81,11 @@ public:
 
 	Result<EncodedMesh> run()
 	{
+		if (featuresFor(options_, original_, mesh_.cut) & (1 << kAttributes)) {
+			rows_.emplace(original_);
+			if (options_.mode == Mode::Compact)
+				seams_ = rows_->seams(original_, mesh_.cut);
+		}
 		const std::vector<Way> ways = waysToEncode(
 		    options_, mesh_.positions.size(),
 		    !classic_ && repeatsItself(mesh_.cut.table, mesh_.positions));
@@ -119,12 +124,12 @@ private:
 		const GeometricalCriterion criterion {
 		    way.wgc, options_.wgcSharpness, options_.wgcDeviation};
 		std::optional<Levels> levels =
-		    makeLevels(mesh_, criterion, steeringFor(way.aim), stage.part(0, coarsened));
+		    makeLevels(mesh_, criterion, steeringFor(way.aim), stage.part(0, coarsened), seams_);
 		if (!levels)
 			return false;
 		Attributes attributes;
-		if (featuresFor(options_, original_, mesh_.cut) & (1 << kAttributes))
-			attributes.emplace(original_, mesh_, *levels);
+		if (rows_)
+			attributes.emplace(*rows_, original_, mesh_, *levels);
 		const Stage writing = stage.part(coarsened, 1);
 		return classic_ ? tryClassic(*levels, attributes, way, writing)
 		                : tryCompact(*levels, attributes, way, writing);
@@ -205,6 +210,8 @@ private:
 	const QuantisedMesh& mesh_;
 	const EncodeOptions& options_;
 	bool classic_;
+	std::optional<AttributeRows> rows_; ///< if there are any
+	Seams seams_;
 	EncodingWork work_;
 	Choice choice_;
 };

@@ -78,15 +78,16 @@ Coarsening steer(
     const CornerTable& fine,
     const std::vector<LatticePoint>& points,
     const std::vector<std::uint8_t>& kept,
-    ErrorCriterion criterion)
+    ErrorCriterion criterion,
+    const Seams& seams)
 {
 	for (const double share : {criterion.share, kLenientShare}) {
 		criterion.share = share;
-		Coarsening step = coarsen(fine, points, {}, kept, criterion);
+		Coarsening step = coarsen(fine, points, {}, kept, criterion, &seams);
 		if (worthwhile(step.coarse.vertexCount, fine.vertexCount))
 			return step;
 	}
-	return coarsen(fine, points, {}, kept);
+	return coarsen(fine, points, {}, kept, {}, &seams);
 }
 
 /// One step by connectivity, and the geometrical criterion.
@@ -94,12 +95,13 @@ Coarsening coarsenFreely(
     const CornerTable& fine,
     const std::vector<LatticePoint>& points,
     const GeometricalCriterion& criterion,
-    const std::vector<std::uint8_t>& kept)
+    const std::vector<std::uint8_t>& kept,
+    const Seams& seams)
 {
-	Coarsening step = coarsen(fine, points, criterion, kept);
+	Coarsening step = coarsen(fine, points, criterion, kept, {}, &seams);
 	// Where nearly everything is sharp the criterion would stop the coarsening for good.
 	if (criterion.active && step.coarse.vertexCount > fine.vertexCount - fine.vertexCount / 4)
-		step = coarsen(fine, points, {}, kept);
+		step = coarsen(fine, points, {}, kept, {}, &seams);
 	return step;
 }
 
@@ -111,7 +113,8 @@ std::vector<Coarsening> coarsenAll(
     const GeometricalCriterion& criterion,
     const Steering& steering,
     const std::function<bool(double)>& step,
-    const std::vector<std::uint8_t>& kept)
+    const std::vector<std::uint8_t>& kept,
+    Seams seams)
 {
 	std::vector<Coarsening> steps;
 	const CornerTable* fine          = &table;
@@ -120,21 +123,27 @@ std::vector<Coarsening> coarsenAll(
 	Quadrics quadrics;
 	const bool steered = steering.freeSteps != Steering::kNever;
 	double share       = steering.firstShare;
-	for (int i = 0;; ++i) {
+	for (;;) {
+		const int i = int(steps.size());
 		Coarsening next;
 		bool free = i < steering.freeSteps;
 		if (free)
-			next = coarsenFreely(*fine, points, criterion, stay);
+			next = coarsenFreely(*fine, points, criterion, stay, seams);
 		if (steered && i == 0)
 			quadrics = Quadrics(table, positions);
 		if (free && steered)
 			free = excessError(*fine, points, quadrics, next) <= kFreeExcess;
 		if (!free) {
-			next  = steer(*fine, points, stay, {&quadrics, share});
+			next  = steer(*fine, points, stay, {&quadrics, share}, seams);
 			share = steering.share;
 		}
-		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount))
-			break;
+		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount)) {
+			if (!seams.any())
+				break;
+			seams = {}; // there is nothing else left
+			continue;
+		}
+		seams.carry(next);
 		if (steered)
 			quadrics.carry(next, points);
 		points = pick(points, next.fineVertex);
