@@ -156,8 +156,10 @@ private:
 		auto writer = writerFor(attributes);
 		if (!writeClassic(levels, writer.get(), head, chunks, stage.part(0, written())))
 			return false;
-		finish(way.plans.front(), levels, writer.get(), head, chunks);
-		return stage(1);
+		return finish(
+		           way.plans.front(), levels, writer.get(), head, chunks,
+		           stage.part(written(), 1)) &&
+		       stage(1);
 	}
 
 	bool
@@ -176,8 +178,8 @@ private:
 			if (!writeCompact(
 			        levels, schedule, writer.get(), head, chunks, part.part(0, written())))
 				return false;
-			finish(plan, levels, writer.get(), head, chunks);
-			if (!part(1))
+			if (!finish(plan, levels, writer.get(), head, chunks, part.part(written(), 1)) ||
+			    !part(1))
 				return false;
 		}
 		return true;
@@ -188,22 +190,25 @@ private:
 		return attributes ? std::make_unique<AttributeWriter>(*attributes) : nullptr;
 	}
 
-	void finish(
+	bool finish(
 	    const Plan& plan,
 	    const Levels& levels,
 	    AttributeWriter* attributes,
 	    Head& head,
-	    std::vector<std::uint8_t>& chunks)
+	    std::vector<std::uint8_t>& chunks,
+	    const Stage& stage)
 	{
-		writeFinish(
-		    {original_, mesh_.cut, levels.replay.finest, levels.positions, levels.replay.source,
-		     levels.glue, attributes},
-		    head, chunks);
+		if (!writeFinish(
+		        {original_, mesh_.cut, levels.replay.finest, levels.positions,
+		         levels.replay.source, levels.glue, attributes},
+		        head, chunks, stage))
+			return false;
 		EncodedMesh out;
 		writeHead(head, out.bytes);
 		out.info = describe(head, out.bytes.size());
 		out.bytes.insert(out.bytes.end(), chunks.begin(), chunks.end());
 		choice_.add(plan.rank, std::move(out));
+		return true;
 	}
 
 	const MeshData& original_;

@@ -304,7 +304,8 @@ std::vector<std::uint8_t> AttributeWriter::rest(std::vector<Channel>& channels)
 	ByteWriter out;
 	out.fixed(digestOf(tables));
 	RangeEncoder coder;
-	syntax_.codeRest(coder, from_.known(), from_.restored(), tables);
+	Watch never;
+	syntax_.codeRest(coder, from_.known(), from_.restored(), tables, never);
 	const auto stream = coder.finish();
 	out.bytes.insert(out.bytes.end(), stream.begin(), stream.end());
 	channels = from_.channels();
