@@ -22,6 +22,12 @@ bool worthwhile(Index coarse, Index fine)
 	return coarse < fine && (fine <= kSmall || coarse <= fine - fine / 16);
 }
 
+/// Seams that leave less to remove cost the surface beside them more than they are worth.
+bool worthItsSeams(Index coarse, Index fine)
+{
+	return coarse <= fine - fine / 6;
+}
+
 template <class Value>
 std::vector<Value> pick(const std::vector<Value>& values, const std::vector<Index>& rows)
 {
@@ -81,13 +87,14 @@ Coarsening steer(
     ErrorCriterion criterion,
     const Seams& seams)
 {
+	Coarsening step;
 	for (const double share : {criterion.share, kLenientShare}) {
 		criterion.share = share;
-		Coarsening step = coarsen(fine, points, {}, kept, criterion, &seams);
+		step            = coarsen(fine, points, {}, kept, criterion, &seams);
 		if (worthwhile(step.coarse.vertexCount, fine.vertexCount))
 			return step;
 	}
-	return coarsen(fine, points, {}, kept, {}, &seams);
+	return seams.any() ? step : coarsen(fine, points, {}, kept);
 }
 
 /// One step by connectivity, and the geometrical criterion.
@@ -137,12 +144,12 @@ std::vector<Coarsening> coarsenAll(
 			next  = steer(*fine, points, stay, {&quadrics, share}, seams);
 			share = steering.share;
 		}
-		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount)) {
-			if (!seams.any())
-				break;
-			seams = {}; // there is nothing else left
+		if (seams.any() && !worthItsSeams(next.coarse.vertexCount, fine->vertexCount)) {
+			seams = {};
 			continue;
 		}
+		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount))
+			break;
 		seams.carry(next);
 		if (steered)
 			quadrics.carry(next, points);
