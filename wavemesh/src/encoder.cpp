@@ -162,8 +162,8 @@ private:
 		       stage(1);
 	}
 
-	bool
-	tryCompact(const Levels& levels, const Attributes& attributes, const Way& way, const Stage& stage)
+	bool tryCompact(
+	    const Levels& levels, const Attributes& attributes, const Way& way, const Stage& stage)
 	{
 		double done = 0;
 		for (const Plan& plan : way.plans) {
@@ -199,8 +199,8 @@ private:
 	    const Stage& stage)
 	{
 		if (!writeFinish(
-		        {original_, mesh_.cut, levels.replay.finest, levels.positions,
-		         levels.replay.source, levels.glue, attributes},
+		        {original_, mesh_.cut, levels.replay.finest, levels.positions, levels.replay.source,
+		         levels.glue, attributes},
 		        head, chunks, stage))
 			return false;
 		EncodedMesh out;
