@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # gui_texture_test.sh BUILD: browses samples/die.ply, which has a texture, in MeshLab's window (on a
 # display of its own) from a .wmc: to a level with a sixteenth of the vertices and back. Checks that
-# the pips stay on the die. Then colours it by the normal component of the details. The pictures stay in BUILD/gui-texture.
+# the pips stay on the die. Then colours it by the normal component of the details. The pictures stay
+# in BUILD/gui-texture.
 set -euo pipefail
 
 build=$1
