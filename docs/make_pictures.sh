@@ -29,7 +29,7 @@ small() {
 }
 small "$build/gui/middle.png" tutorial-browse -resize 900x
 small "$build/gui/save-options.png" tutorial-save -resize 900x
-small "$build/gui-filters/colour.png" tutorial-colour -resize 900x
+small "$build/gui-texture/colour.png" tutorial-colour -resize 900x
 small "$build/gui-filters/equaliser-strong.png" tutorial-equalise -resize 900x
 for name in before strong smooth; do
 	convert "$build/gui-filters/equaliser-$name-view.png" -crop 740x330+20+220 +repage "$build/gui-filters/cut-$name.png"

@@ -107,6 +107,7 @@ FilterWavemeshPlugin::initParameterList(const QAction* action, const MeshDocumen
 		const LevelRange range = levelRange(layer);
 		addSliderParameters(list, range);
 		card_ = levelCard(range, range.shown);
+		watchDialog();
 		break;
 	}
 	case FP_LAYERS:

@@ -41,6 +41,9 @@ public:
 	    unsigned int& postConditionMask,
 	    vcg::CallBackPos* cb) override;
 
+	/// Of the dialog of Browse Levels: when it is closed, nobody needs what was decoded for it.
+	bool eventFilter(QObject* dialog, QEvent* event) override;
+
 private:
 	using Results = std::map<std::string, QVariant>;
 
@@ -63,6 +66,9 @@ private:
 	void decodeAhead(const MeshModel& layer, const wavemesh::SharedBytes& stream, int shown);
 	/// Levels of the hierarchy for details, 0 if there is none. Never throws.
 	int finestDetailLevel(const MeshModel& layer);
+	/// Watches for the end of the dialog that MeshLab is about to make. It tells nobody, and keeps
+	/// the dialog hidden.
+	void watchDialog();
 	/// Shows `card` where the dialog of Browse Levels, if there is one, shows that of another
 	/// level.
 	void showCard(const QString& card);

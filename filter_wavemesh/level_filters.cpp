@@ -13,9 +13,12 @@
 #include <wavemesh/vcg_wmc.h>
 
 #include <QApplication>
+#include <QDockWidget>
+#include <QEvent>
 #include <QFileInfo>
 #include <QGuiApplication>
 #include <QLabel>
+#include <QTimer>
 
 #include <algorithm>
 
@@ -43,6 +46,18 @@ public:
 private:
 	bool shown_;
 };
+
+/// MeshLab's dialogs offer no text that changes: a label is found by what it says.
+std::vector<QLabel*> labelsThatSay(const QString& text)
+{
+	std::vector<QLabel*> labels;
+	if (text.isEmpty() || qobject_cast<QApplication*>(QCoreApplication::instance()) == nullptr)
+		return labels;
+	for (QWidget* widget : QApplication::allWidgets())
+		if (auto* label = qobject_cast<QLabel*>(widget); label != nullptr && label->text() == text)
+			labels.push_back(label);
+	return labels;
+}
 
 /// What a layer shows, for result maps and the log.
 struct Shown
@@ -237,12 +252,28 @@ int FilterWavemeshPlugin::finestDetailLevel(const MeshModel& layer)
 
 void FilterWavemeshPlugin::showCard(const QString& card)
 {
-	if (qobject_cast<QApplication*>(QCoreApplication::instance()) == nullptr || card == card_)
+	if (card == card_)
 		return;
-	// MeshLab's dialogs offer no text that changes: the label is found by what it says.
-	for (QWidget* widget : QApplication::allWidgets())
-		if (auto* label = qobject_cast<QLabel*>(widget))
-			if (!card_.isEmpty() && label->text() == card_)
-				label->setText(card);
+	for (QLabel* label : labelsThatSay(card_))
+		label->setText(card);
 	card_ = card;
+}
+
+void FilterWavemeshPlugin::watchDialog()
+{
+	QTimer::singleShot(0, this, [this] {
+		for (QWidget* part : labelsThatSay(card_))
+			for (; part != nullptr; part = part->parentWidget())
+				if (qobject_cast<QDockWidget*>(part) != nullptr)
+					part->installEventFilter(this);
+	});
+}
+
+bool FilterWavemeshPlugin::eventFilter(QObject* dialog, QEvent* event)
+{
+	if (event->type() == QEvent::Close) {
+		ahead_ = nullptr;
+		dialog->removeEventFilter(this);
+	}
+	return QObject::eventFilter(dialog, event);
 }

@@ -28,7 +28,7 @@ mirror_of() {
 	# shellcheck source=cmake/get_meshlab.sh
 	. "$root/cmake/get_meshlab.sh"
 	write_apt_sources "$suite" "$work"
-	cat "$work"/*.sources "$work"/*.list 2>/dev/null |
+	{ cat "$work"/*.sources "$work"/*.list 2>/dev/null || true; } |
 		sed -n 's/^URIs:[[:space:]]*\([^[:space:]]*\).*/\1/p; s/^deb-src \(\[[^]]*\] *\)\{0,1\}\([^ ]*\) .*/\2/p' |
 		head -n 1
 }

@@ -3,9 +3,14 @@
 /// filter_wavemesh, applied by name and by filter scripts, on layers from every source.
 #include "test_host.h"
 
+#include <shared/layer_stream.h>
+
 #include <wavemesh/codec.h>
 
+#include <QCoreApplication>
+#include <QDockWidget>
 #include <QFile>
+#include <QLabel>
 
 #include <array>
 #include <vector>
@@ -249,6 +254,29 @@ TEST(FilterWavemesh, WhatTheDialogDecodesAheadIsForTheMeshThatItFoundOnly)
 	browseByScript(host, 0);
 	browseByScript(host, -1);
 	EXPECT_TRUE(Shape(host.mesh()) == edited);
+}
+
+TEST(FilterWavemesh, WhatTheDialogDecodesAheadGoesWithIt)
+{
+	MeshLabHost& host      = freshHost();
+	const MeshModel& layer = *host.open(sample("pretzel.wmc")).front();
+	const auto stream =
+	    vcg::tri::Allocator<CMeshO>::FindPerMeshAttribute<LayerStream>(layer.cm, "wavemesh.stream");
+	const auto users = [&] { return stream().bytes.use_count(); };
+	const auto alone = users();
+	for (const bool used : {false, true}) {
+		const RichParameterList list = host.openDialog("Wavemesh: Browse Levels");
+		QDockWidget dialog; // as MeshLab makes it
+		dialog.setWidget(new QLabel(list.at(0).fieldDescription()));
+		dialog.show();
+		QCoreApplication::processEvents();
+		EXPECT_EQ(users(), alone + 1) << "is decoded";
+		if (used)
+			host.apply("Wavemesh: Browse Levels", {{"level", "3"}});
+		dialog.close();
+		EXPECT_EQ(users() == alone, !used) << "levels that the layer was shown at stay with it";
+	}
+	host.apply("Wavemesh: Browse Levels", {{"level", "5"}});
 }
 
 TEST(FilterWavemesh, ATransformationOfALayerStaysWithEveryLevel)

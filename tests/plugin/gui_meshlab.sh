@@ -126,6 +126,7 @@ preview_row() {
 # places of what stands at a fixed distance from its foot.
 open_filter() {
 	focus 'MeshLab 20'
+	xdotool mousemove 400 880 # what is under the pointer is chosen from the list
 	xdotool key ctrl+f
 	sleep 0.5
 	xdotool type "${2:-$1}"

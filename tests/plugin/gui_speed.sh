@@ -31,8 +31,8 @@ click "$preview_x" "$preview_y"
 # step_to LEVEL: the slider there, for as long as the rate gives it
 step_to() {
 	local due
-	xdotool mousemove $((slider_left + (slider_right - slider_left) * $1 / finest)) "$slider_y"
 	printf '%s asked %s\n' "$EPOCHREALTIME" "$1" >>"$out/asked"
+	xdotool mousemove $((slider_left + (slider_right - slider_left) * $1 / finest)) "$slider_y"
 	steps=$((steps + 1))
 	due=$(awk -v due="$began" -v n="$steps" -v rate="$rate" -v now="$EPOCHREALTIME" \
 		'BEGIN { wait = due + n / rate - now; print (wait > 0 ? wait : 0) }')

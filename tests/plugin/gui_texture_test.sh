@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # gui_texture_test.sh BUILD: browses samples/die.ply, which has a texture, in MeshLab's window (on a
-# display of its own) from a .wmc made for good coarse levels: to one with a sixteenth of the
-# vertices and back. Checks that the pips stay on the die. The pictures stay in BUILD/gui-texture.
+# display of its own) from a .wmc: to a level with a sixteenth of the vertices and back. Checks that
+# the pips stay on the die. Then colours it by the normal component of the details. The pictures stay
+# in BUILD/gui-texture.
 set -euo pipefail
 
 build=$1
@@ -12,7 +13,7 @@ out=$build/gui-texture
 . "$(dirname "${BASH_SOURCE[0]}")/gui_meshlab.sh"
 
 cp "$samples/die.png" "$out"
-"$build/wmc" encode "$samples/die.ply" "$out/die.wmc" --optimize levels >/dev/null
+"$build/wmc" encode "$samples/die.ply" "$out/die.wmc" >/dev/null
 read -r coarse finest < <("$build/wmc" info "$out/die.wmc" --json | python3 -c '
 import json, sys
 levels = json.load(sys.stdin)["levels"]
@@ -44,11 +45,23 @@ picture coarse
 show "$finest"
 xdotool mouseup 1
 picture again
+click "$close_x" "$buttons_y"
+
+dialog_top=60
+open_filter 'Wavemesh: Colour by Detail' 'Colour by Detail'
+picture colour-dialog
+xdotool mousemove $((X + WIDTH / 2 + 40)) $((Y + 175)) click 5 # the wheel: the next measure
+sleep 0.5
+picture colour-measure
+click "$apply_x" "$buttons_y"
+eventually 20 grep -q 'Applied filter: Wavemesh: Colour by Detail' "$out/meshlab.log"
+picture colour
 
 fine=$(pips fine)
 coarse=$(pips coarse)
 ((fine > 2000)) || fail "The die has no pips: $fine pixels of their colour."
 ((10 * coarse > 8 * fine && 8 * coarse < 10 * fine)) || fail "The pips went from $fine to $coarse pixels."
 (($(differing fine coarse) > 1000)) || fail "The coarse level looks like the finest."
+(($(differing again colour) > 1000)) || fail "No colours show."
 (($(differing fine again) == 0)) || fail "The finest level does not look as before."
 echo "The pictures are in $out"

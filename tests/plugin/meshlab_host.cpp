@@ -191,9 +191,9 @@ static RichParameterList parametersOf(const QString& filter, const MeshDocument&
 	return plugins().getFilterPluginFromAction(action)->initParameterList(action, document);
 }
 
-void MeshLabHost::openDialog(const QString& filter)
+RichParameterList MeshLabHost::openDialog(const QString& filter)
 {
-	parametersOf(filter, *document_);
+	return parametersOf(filter, *document_);
 }
 
 MeshLabHost::Results MeshLabHost::apply(const QString& filter, const Settings& settings)

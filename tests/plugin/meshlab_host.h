@@ -62,7 +62,8 @@ public:
 	QString takeWarnings();
 
 	/// Does what MeshLab does before the dialog of a filter appears, and no more.
-	void openDialog(const QString& filter);
+	/// @return what would be in it
+	RichParameterList openDialog(const QString& filter);
 	/// Applies a filter, by the name it has in the menus, to the document.
 	Results apply(const QString& filter, const Settings& settings = {});
 	/// The same with nothing but the document, as MeshLab's own script runner does it: without a

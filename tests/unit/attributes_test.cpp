@@ -266,6 +266,42 @@ TEST(Attributes, CornersOfCoarseFacesHaveRowsOfTheirVertices_AndOfOneChartWhereT
 	}
 }
 
+TEST(Attributes, CoarseFacesStayOnTheirSideOfASeam)
+{
+	EncodeOptions o;
+	for (const Optimize aim : {Optimize::Size, Optimize::Balanced, Optimize::Levels}) {
+		o.optimize      = aim;
+		const auto file = encode(withCharts(), o);
+		ASSERT_TRUE(file.ok());
+		int coarse = 0;
+		for (const Level& level : levelsOf(file->bytes)) {
+			if (level.mesh.positions.size() < 50)
+				continue; // at last seams must go too
+			coarse += level.mesh.positions.size() < 150;
+			const auto& values = level.mesh.attributes[0].values;
+			for (std::size_t i = 2; i < values.size(); i += 9)
+				ASSERT_TRUE(values[i] == values[i + 3] && values[i] == values[i + 6])
+				    << level.mesh.positions.size();
+		}
+		EXPECT_GE(coarse, 1);
+	}
+}
+
+TEST(Attributes, SeamsAroundEachFaceDoNotKeepAMeshFromBeingCoarsened)
+{
+	MeshData mesh           = withCharts();
+	auto& values            = mesh.attributes[0].values;
+	mesh.attributes[0].bits = 0;
+	for (std::size_t i = 0; i < values.size(); ++i)
+		values[i] += double(i / 9); // each face is a chart of its own
+	const auto seams = encode(mesh);
+	mesh.attributes.clear();
+	const auto plain = encode(mesh);
+	ASSERT_TRUE(seams.ok() && plain.ok());
+	EXPECT_EQ(seams->info.levels.size(), plain->info.levels.size());
+	EXPECT_EQ(seams->info.levels[0].vertices, plain->info.levels[0].vertices);
+}
+
 TEST(Attributes, APrefixHasThoseOfItsLevel)
 {
 	const auto file = encode(withAttributes(makeBumpySphere(400, 3), 1));

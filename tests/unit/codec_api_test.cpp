@@ -186,6 +186,57 @@ TEST(Progress, MovesWithinALargeLevel)
 	EXPECT_LT(largest, 0.2);
 }
 
+TEST(Progress, MovesThroughWhatFollowsTheLevels)
+{
+	MeshData mesh = makeBumpySphere(20000, 131);
+	Attribute normal;
+	normal.of         = AttributeOf::Vertex;
+	normal.kind       = AttributeKind::Normal;
+	normal.components = 3;
+	normal.bits       = 12;
+	for (const auto& p : mesh.positions) {
+		const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+		for (const double x : p)
+			normal.values.push_back(double(float(x / length)));
+	}
+	mesh.attributes = {normal};
+	for (const bool exact : {false, true}) {
+		EncodeOptions o;
+		o.keepOrder   = true;
+		o.exact       = exact;
+		double before = 0, largest = 0;
+		std::vector<double> steps;
+		const auto progress = [&](double fraction) {
+			largest = std::max(largest, fraction - before);
+			before  = fraction;
+			if (steps.empty() || fraction > steps.back())
+				steps.push_back(fraction);
+			return true;
+		};
+		o.progress      = progress;
+		const auto file = encode(mesh, o);
+		ASSERT_TRUE(file.ok());
+		EXPECT_LT(largest, 0.15);
+
+		steps.clear();
+		before = largest = 0;
+		DecodeOptions d;
+		d.progress = progress;
+		ASSERT_TRUE(decode(file->bytes.data(), file->bytes.size(), d).ok());
+		EXPECT_LT(largest, 0.15);
+		const double levels = decodingShares(file->info, file->info.finestLevel()).back();
+		ASSERT_LT(levels, 0.9);
+		const auto behind = std::lower_bound(steps.begin(), steps.end(), levels);
+		EXPECT_GE(steps.end() - behind, 20) << "steps behind the levels";
+
+		int calls       = 0;
+		const auto last = std::size_t(behind - steps.begin()) + 10;
+		d.progress      = [&](double fraction) { return ++calls, fraction < steps[last]; };
+		const auto back = decode(file->bytes.data(), file->bytes.size(), d);
+		EXPECT_EQ(back.status().code, StatusCode::Cancelled);
+	}
+}
+
 TEST(Progress, OfLevels_IsByTheirWork)
 {
 	EncodeOptions o;

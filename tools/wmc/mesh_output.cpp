@@ -317,12 +317,11 @@ void addOwnProperties(const MeshData& mesh, FullMesh& m, io::PlyInfo& ply)
 		                       : a.type == NumberType::Float ? vcg::ply::T_FLOAT
 		                                                     : vcg::ply::T_DOUBLE;
 		const std::string in = whole ? addAsInts(a, m) : a.name;
-		const bool ofVertex  = a.of == AttributeOf::Vertex;
+		const int of         = a.of == AttributeOf::Vertex ? 0 : 1; // older VCGLibs have no names
 		if (a.components == 3)
-			ply.addPerElemPointAttribute(ofVertex ? 0 : 1, type, in, a.name);
+			ply.addPerElemPointAttribute(of, type, in, a.name);
 		else
-			ply.addPerElemScalarAttribute(
-			    ofVertex ? io::PlyInfo::PlyElemVertex : io::PlyInfo::PlyElemFace, type, in, a.name);
+			ply.addPerElemScalarAttribute(of, type, in, a.name);
 	}
 }
 

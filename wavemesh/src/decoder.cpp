@@ -69,6 +69,7 @@ Status Decoder::State::advance()
 	if (level < 0 || row(level).endsChunk)
 		if (Status s = openChunk(); !s.ok())
 			return s;
+	levelShare        = shareOfNextLevel();
 	const bool splits = level >= 0 && row(level + 1).kind == LevelKind::Split;
 	if (Status s = level < 0 ? readBase() : splits ? readSplit() : readPrecise(); !s.ok())
 		return s;
@@ -79,6 +80,19 @@ Status Decoder::State::advance()
 	return {};
 }
 
+/// Its part of the work up to the end of the file, if it is the finest.
+double Decoder::State::shareOfNextLevel() const
+{
+	if (level + 1 != info.finestLevel())
+		return 1;
+	const LevelInfo* next = &info.levels.back();
+	const double work     = levelWork(info.mode, *next, level < 0 ? nullptr : next - 1);
+	double all            = work;
+	for (const double w : featureWork(info))
+		all += w;
+	return all > 0 ? work / all : 1;
+}
+
 /// What follows the finest level. What came whole is applied even if more is missing.
 Status Decoder::State::finish()
 {
@@ -86,16 +100,25 @@ Status Decoder::State::finish()
 		return {StatusCode::ChecksumMismatch, "the finest mesh does not match its digest"};
 	if (head.features == 0)
 		return {};
-	Finish stage(head, table, positions, glue, attributes.get());
+	Finish finish(head, table, positions, glue, attributes.get());
 	Status status;
-	for (int f = 0; f < kFeatures && status.ok(); ++f)
-		if (head.has(Feature(f))) {
-			status = openFeature(Feature(f));
-			if (status.ok())
-				status = stage.apply(Feature(f), chunk.payload, chunk.size);
-		}
+	const auto work = featureWork(info);
+	double done = 0, all = 0;
+	for (const double w : work)
+		all += w;
+	for (std::size_t f = 0; f < kFeatures && status.ok(); ++f) {
+		const double before = done;
+		done += all > 0 ? work[f] / all : 0;
+		if (!head.has(Feature(f)))
+			continue;
+		status = openFeature(Feature(f));
+		if (status.ok())
+			status = finish.apply(
+			    Feature(f), chunk.payload, chunk.size,
+			    Stage(progress, levelShare, 1).part(before, done));
+	}
 	if (status.ok() || status.code == StatusCode::Truncated)
-		finished = stage.mesh();
+		finished = finish.mesh();
 	return status;
 }
 
@@ -256,7 +279,9 @@ Result<DecodedMesh> decode(const std::uint8_t* data, std::size_t size, const Dec
 	Status status;
 	while (decoder->level() < target && status.ok()) {
 		const std::size_t next = std::size_t(decoder->level() + 1);
-		const Stage stage(options.progress, next == 0 ? 0 : shares[next - 1], shares[next]);
+		// The last one finishes the mesh, too.
+		const double end = int(next) == target ? 1 : shares[next];
+		const Stage stage(options.progress, next == 0 ? 0 : shares[next - 1], end);
 		if (!stage(0))
 			return cancelled();
 		status = decoder->advance(stage);

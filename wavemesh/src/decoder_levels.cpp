@@ -165,7 +165,7 @@ Status Decoder::State::readPrecise()
 /// Tells the progress of the level, and remembers the answer.
 bool Decoder::State::goesOn(double fraction)
 {
-	cancelled = progress && !progress(fraction);
+	cancelled = progress && !progress(levelShare * fraction);
 	return !cancelled;
 }
 

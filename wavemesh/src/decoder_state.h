@@ -40,7 +40,8 @@ struct Decoder::State
 	std::optional<MeshData> finished; ///< level J with what follows it, as far as it came
 	Status stopped;                   ///< not ok: no further level can come
 	Progress progress;                ///< of the level being read
-	bool cancelled = false;
+	double levelShare = 1;            ///< of the level in that; behind it the mesh is finished
+	bool cancelled    = false;
 
 	std::size_t offset = 0; ///< of the next chunk
 	Chunk chunk;            ///< the one being read
@@ -60,6 +61,7 @@ struct Decoder::State
 	Status readDetails(const Refinement& refinement);
 	Status readChildren(const Refinement& refinement, const CornerTable& child);
 	Status readPrecise();
+	double shareOfNextLevel() const;
 	Status finish();
 	Status advance();
 	bool goesOn(double fraction);

@@ -81,6 +81,11 @@ public:
 
 	Result<EncodedMesh> run()
 	{
+		if (featuresFor(options_, original_, mesh_.cut) & (1 << kAttributes)) {
+			rows_.emplace(original_);
+			if (options_.mode == Mode::Compact)
+				seams_ = rows_->seams(original_, mesh_.cut);
+		}
 		const std::vector<Way> ways = waysToEncode(
 		    options_, mesh_.positions.size(),
 		    !classic_ && repeatsItself(mesh_.cut.table, mesh_.positions));
@@ -119,12 +124,12 @@ private:
 		const GeometricalCriterion criterion {
 		    way.wgc, options_.wgcSharpness, options_.wgcDeviation};
 		std::optional<Levels> levels =
-		    makeLevels(mesh_, criterion, steeringFor(way.aim), stage.part(0, coarsened));
+		    makeLevels(mesh_, criterion, steeringFor(way.aim), stage.part(0, coarsened), seams_);
 		if (!levels)
 			return false;
 		Attributes attributes;
-		if (featuresFor(options_, original_, mesh_.cut) & (1 << kAttributes))
-			attributes.emplace(original_, mesh_, *levels);
+		if (rows_)
+			attributes.emplace(*rows_, original_, mesh_, *levels);
 		const Stage writing = stage.part(coarsened, 1);
 		return classic_ ? tryClassic(*levels, attributes, way, writing)
 		                : tryCompact(*levels, attributes, way, writing);
@@ -151,12 +156,14 @@ private:
 		auto writer = writerFor(attributes);
 		if (!writeClassic(levels, writer.get(), head, chunks, stage.part(0, written())))
 			return false;
-		finish(way.plans.front(), levels, writer.get(), head, chunks);
-		return stage(1);
+		return finish(
+		           way.plans.front(), levels, writer.get(), head, chunks,
+		           stage.part(written(), 1)) &&
+		       stage(1);
 	}
 
-	bool
-	tryCompact(const Levels& levels, const Attributes& attributes, const Way& way, const Stage& stage)
+	bool tryCompact(
+	    const Levels& levels, const Attributes& attributes, const Way& way, const Stage& stage)
 	{
 		double done = 0;
 		for (const Plan& plan : way.plans) {
@@ -171,8 +178,8 @@ private:
 			if (!writeCompact(
 			        levels, schedule, writer.get(), head, chunks, part.part(0, written())))
 				return false;
-			finish(plan, levels, writer.get(), head, chunks);
-			if (!part(1))
+			if (!finish(plan, levels, writer.get(), head, chunks, part.part(written(), 1)) ||
+			    !part(1))
 				return false;
 		}
 		return true;
@@ -183,28 +190,33 @@ private:
 		return attributes ? std::make_unique<AttributeWriter>(*attributes) : nullptr;
 	}
 
-	void finish(
+	bool finish(
 	    const Plan& plan,
 	    const Levels& levels,
 	    AttributeWriter* attributes,
 	    Head& head,
-	    std::vector<std::uint8_t>& chunks)
+	    std::vector<std::uint8_t>& chunks,
+	    const Stage& stage)
 	{
-		writeFinish(
-		    {original_, mesh_.cut, levels.replay.finest, levels.positions, levels.replay.source,
-		     levels.glue, attributes},
-		    head, chunks);
+		if (!writeFinish(
+		        {original_, mesh_.cut, levels.replay.finest, levels.positions, levels.replay.source,
+		         levels.glue, attributes},
+		        head, chunks, stage))
+			return false;
 		EncodedMesh out;
 		writeHead(head, out.bytes);
 		out.info = describe(head, out.bytes.size());
 		out.bytes.insert(out.bytes.end(), chunks.begin(), chunks.end());
 		choice_.add(plan.rank, std::move(out));
+		return true;
 	}
 
 	const MeshData& original_;
 	const QuantisedMesh& mesh_;
 	const EncodeOptions& options_;
 	bool classic_;
+	std::optional<AttributeRows> rows_; ///< if there are any
+	Seams seams_;
 	EncodingWork work_;
 	Choice choice_;
 };

@@ -13,7 +13,8 @@ std::vector<double> decodingShares(const StreamInfo& info, int target)
 		shares.push_back(all);
 	}
 	if (target == info.finestLevel())
-		all += featureWork(info);
+		for (const double work : featureWork(info))
+			all += work;
 	for (double& share : shares)
 		share = all > 0 ? share / all : 1; // a mesh of nothing takes no time
 	return shares;

@@ -7,6 +7,7 @@
 #include <wavemesh/codec.h>
 
 #include <algorithm>
+#include <array>
 
 namespace wavemesh {
 
@@ -27,12 +28,16 @@ inline double levelWork(Mode mode, const LevelInfo& level, const LevelInfo* belo
 /// The part of a split that is connectivity, and comes first.
 constexpr double kConnectivityWork = 0.35;
 
-/// To read what follows the levels, but for attributes, which count where they are.
-inline double featureWork(const StreamInfo& info)
+/// To read what follows the levels: restoration, order, exact coordinates, the attributes' rest.
+inline std::array<double, 4> featureWork(const StreamInfo& info)
 {
 	const StreamFeatures& f = info.features;
-	return 30 * double(f.restorationBytes) + (f.orderKept ? 27.0 : 0.0) * info.vertices +
-	       (f.exact ? 6.0 : 0.0) * info.vertices;
+	double rest             = double(f.attributeBytes);
+	for (const LevelInfo& level : info.levels)
+		rest -= double(level.attributeBytes);
+	return {
+	    30 * double(f.restorationBytes), (f.orderKept ? 27.0 : 0.0) * info.vertices,
+	    (f.exact ? 6.0 : 0.0) * info.vertices, 17 * std::max(0.0, rest)};
 }
 
 } // namespace wavemesh

@@ -30,6 +30,27 @@ private:
 	double from_, to_;
 };
 
+/// Asks now and then, in a long loop, whether to go on.
+class Watch
+{
+public:
+	Watch() = default; ///< never asks
+	explicit Watch(const Stage& stage) : stage_(&stage) {}
+	/// False: the user wants to stop. Not to be called again then.
+	bool goesOn(std::size_t done, std::size_t all)
+	{
+		constexpr std::size_t kBetween = 1024;
+		if (stage_ != nullptr && done % kBetween == 0)
+			stopped_ = !(*stage_)(double(done) / double(all));
+		return !stopped_;
+	}
+	bool stopped() const { return stopped_; }
+
+private:
+	const Stage* stage_ = nullptr;
+	bool stopped_       = false;
+};
+
 inline Status cancelled()
 {
 	return {StatusCode::Cancelled, "cancelled"};

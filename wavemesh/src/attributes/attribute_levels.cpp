@@ -21,13 +21,69 @@ std::vector<Index> cornersOf(const RestoredSource& source, const ElementOrder& o
 
 } // namespace
 
-AttributeLevels::AttributeLevels(
-    const MeshData& original, const QuantisedMesh& mesh, const Levels& levels)
+AttributeRows::AttributeRows(const MeshData& mesh)
 {
-	for (const Attribute& a : original.attributes) {
-		channels_.push_back(makeChannel(a));
-		rows_.push_back(toRows(channels_.back(), a.values));
+	for (const Attribute& a : mesh.attributes) {
+		channels.push_back(makeChannel(a));
+		tables.push_back(toRows(channels.back(), a.values));
 	}
+}
+
+bool AttributeRows::same(AttributeOf of, Index a, Index b) const
+{
+	for (std::size_t i = 0; i < channels.size(); ++i) {
+		const std::size_t width = channels[i].width();
+		if (channels[i].of == of && channels[i].inLevels() &&
+		    std::memcmp(
+		        tables[i].data() + a * width, tables[i].data() + b * width,
+		        width * sizeof(double)) != 0)
+			return false;
+	}
+	return true;
+}
+
+namespace {
+
+/// Calls back with the lower corner of each inner edge, and whether the corners at its ends are the
+/// same on both sides. @param row  for each corner
+template <class Each>
+void forEachEdge(
+    const AttributeRows& rows, const CornerTable& table, const std::vector<Index>& row, Each each)
+{
+	for (Index c = 0; c < table.cornerCount(); ++c) {
+		const Index d = table.opposite[c];
+		if (d != kNone && c < d)
+			each(
+			    c, rows.same(AttributeOf::Corner, row[nextCorner(c)], row[prevCorner(d)]) &&
+			           rows.same(AttributeOf::Corner, row[prevCorner(c)], row[nextCorner(d)]));
+	}
+}
+
+} // namespace
+
+Seams AttributeRows::seams(const MeshData& mesh, const ManifoldCut& cut) const
+{
+	const CornerTable& table = cut.table;
+	std::vector<Index> row(table.cornerCount());
+	for (Index c = 0; c < table.cornerCount(); ++c) {
+		const auto& t = mesh.triangles[cut.face[c / 3]];
+		const auto at = std::find(t.begin(), t.end(), cut.vertex[table.vertex[c]]);
+		row[c]        = 3 * cut.face[c / 3] + Index(at - t.begin());
+	}
+	std::vector<std::uint8_t> onSeam(table.cornerCount(), 0);
+	forEachEdge(*this, table, row, [&](Index c, bool same) {
+		onSeam[c] = onSeam[table.opposite[c]] = !same;
+	});
+	return Seams(table, onSeam);
+}
+
+AttributeLevels::AttributeLevels(
+    const AttributeRows& from,
+    const MeshData& original,
+    const QuantisedMesh& mesh,
+    const Levels& levels) :
+        from_(from)
+{
 	const CornerTable& finest     = levels.replay.finest;
 	const RestoredNumbers numbers = restoredNumbers(levels.glue, finest.vertexCount);
 	knownVertices_                = numbers.count;
@@ -47,18 +103,6 @@ AttributeLevels::AttributeLevels(
 	coarsen(levels);
 }
 
-bool AttributeLevels::sameRow(AttributeOf of, Index a, Index b) const
-{
-	for (std::size_t i = 0; i < channels_.size(); ++i) {
-		const std::size_t width = channels_[i].width();
-		if (channels_[i].of == of && std::memcmp(
-		                                 rows_[i].data() + a * width, rows_[i].data() + b * width,
-		                                 width * sizeof(double)) != 0)
-			return false;
-	}
-	return true;
-}
-
 /// Of the faces that came from one, from `first` on: the one that most others are like.
 Index AttributeLevels::usual(const Level& fine, const Descent& descent, Index first) const
 {
@@ -67,7 +111,7 @@ Index AttributeLevels::usual(const Level& fine, const Descent& descent, Index fi
 		Index alike = 0;
 		for (Index h = first; h < descent.face.size() && descent.face[h] == descent.face[first];
 		     ++h)
-			alike += sameRow(AttributeOf::Face, face_[fine.face[g]], face_[fine.face[h]]);
+			alike += from_.same(AttributeOf::Face, face_[fine.face[g]], face_[fine.face[h]]);
 		if (alike > most) {
 			most = alike;
 			best = g;
@@ -77,13 +121,13 @@ Index AttributeLevels::usual(const Level& fine, const Descent& descent, Index fi
 }
 
 /// The finest level's charts, and the corners at each vertex.
-struct AttributeLevels::Seams
+struct AttributeLevels::Charts
 {
 	Fans fans;
 	std::vector<Index> chart;   ///< #F_J: the same number for all faces of a piece
 	std::vector<Index> byChart; ///< corners of each fan by charts: hubs may have very many
 
-	explicit Seams(const CornerTable& finest) : fans(finest), chart(finest.faceCount())
+	explicit Charts(const CornerTable& finest) : fans(finest), chart(finest.faceCount())
 	{
 		std::iota(chart.begin(), chart.end(), Index(0));
 	}
@@ -133,20 +177,17 @@ struct AttributeLevels::Seams
 void AttributeLevels::coarsen(const Levels& levels)
 {
 	const CornerTable& finest = levels.replay.finest;
-	Seams seams(finest);
-	for (Index c = 0; c < finest.cornerCount(); ++c) {
-		const Index d = finest.opposite[c];
-		if (d != kNone && c < d &&
-		    sameRow(AttributeOf::Corner, corner_[nextCorner(c)], corner_[prevCorner(d)]) &&
-		    sameRow(AttributeOf::Corner, corner_[prevCorner(c)], corner_[nextCorner(d)]))
-			seams.chart[seams.root(c / 3)] = seams.root(d / 3);
-	}
-	seams.close();
+	Charts charts(finest);
+	forEachEdge(from_, finest, corner_, [&](Index c, bool same) {
+		if (same)
+			charts.chart[charts.root(c / 3)] = charts.root(finest.opposite[c] / 3);
+	});
+	charts.close();
 
 	levels_.resize(levels.splits() + 1);
 	Level& last   = levels_.back();
 	last.vertices = finest.vertexCount;
-	last.chart    = seams.chart;
+	last.chart    = charts.chart;
 	last.face.resize(finest.faceCount());
 	last.corner.resize(finest.cornerCount());
 	std::iota(last.face.begin(), last.face.end(), Index(0));
@@ -161,7 +202,7 @@ void AttributeLevels::coarsen(const Levels& levels)
 		for (Index g = 0; g < child.faceCount(); ++g)
 			if (g == 0 || descent.face[g] != descent.face[g - 1])
 				level.face.push_back(fine.face[usual(fine, descent, g)]);
-		takeCorners(parent, child, descent, seams, fine, level);
+		takeCorners(parent, child, descent, charts, fine, level);
 	}
 }
 
@@ -169,21 +210,21 @@ void AttributeLevels::takeCorners(
     const CornerTable& parent,
     const CornerTable& child,
     const Descent& descent,
-    const Seams& seams,
+    const Charts& charts,
     const Level& fine,
     Level& level) const
 {
 	constexpr Index kMost = 8; // charts that are tried, so that hubs cost nothing
 	Index g               = 0;
 	for (Index f = 0; f < parent.faceCount(); ++f) {
-		std::vector<Index> charts;
+		std::vector<Index> tried;
 		for (; g < child.faceCount() && descent.face[g] == f; ++g)
-			charts.push_back(fine.chart[g]);
+			tried.push_back(fine.chart[g]);
 		const Index v = parent.vertex[3 * f];
-		for (Index j = seams.fans.begin[v]; j < seams.fans.begin[v + 1] && charts.size() < kMost;
+		for (Index j = charts.fans.begin[v]; j < charts.fans.begin[v + 1] && tried.size() < kMost;
 		     ++j)
-			charts.push_back(seams.chart[seams.fans.corner[j] / 3]);
-		level.chart.push_back(seams.shared(parent, f, charts));
+			tried.push_back(charts.chart[charts.fans.corner[j] / 3]);
+		level.chart.push_back(charts.shared(parent, f, tried));
 	}
 	level.corner.assign(parent.cornerCount(), kNone);
 	std::vector<Index> anyChart(parent.cornerCount(), kNone);
@@ -193,16 +234,16 @@ void AttributeLevels::takeCorners(
 			continue;
 		if (anyChart[p] == kNone)
 			anyChart[p] = fine.corner[c];
-		if (level.corner[p] == kNone && seams.chart[fine.corner[c] / 3] == level.chart[p / 3])
+		if (level.corner[p] == kNone && charts.chart[fine.corner[c] / 3] == level.chart[p / 3])
 			level.corner[p] = fine.corner[c];
 	}
 	for (Index p = 0; p < parent.cornerCount(); ++p) {
 		const Index v = parent.vertex[p];
 		if (level.corner[p] == kNone)
-			level.corner[p] = seams.find(v, level.chart[p / 3]);
+			level.corner[p] = charts.find(v, level.chart[p / 3]);
 		if (level.corner[p] == kNone)
 			level.corner[p] =
-			    anyChart[p] != kNone ? anyChart[p] : seams.fans.corner[seams.fans.begin[v]];
+			    anyChart[p] != kNone ? anyChart[p] : charts.fans.corner[charts.fans.begin[v]];
 	}
 }
 
@@ -212,24 +253,24 @@ Tables AttributeLevels::picked(
     const std::vector<Index>& corner) const
 {
 	Tables out;
-	for (std::size_t i = 0; i < channels_.size(); ++i) {
-		const std::size_t width = channels_[i].width();
-		if (channels_[i].isFauxEdges()) {
-			out.push_back(turnedFauxEdges(rows_[i], face, corner));
+	for (std::size_t i = 0; i < from_.channels.size(); ++i) {
+		const std::size_t width = from_.channels[i].width();
+		if (from_.channels[i].isFauxEdges()) {
+			out.push_back(turnedFauxEdges(from_.tables[i], face, corner));
 			continue;
 		}
-		switch (channels_[i].of) {
+		switch (from_.channels[i].of) {
 		case AttributeOf::Vertex:
-			out.push_back(pickedRows(rows_[i], vertex, width));
+			out.push_back(pickedRows(from_.tables[i], vertex, width));
 			break;
 		case AttributeOf::Face:
-			out.push_back(pickedRows(rows_[i], face, width));
+			out.push_back(pickedRows(from_.tables[i], face, width));
 			break;
 		case AttributeOf::Corner:
-			out.push_back(pickedRows(rows_[i], corner, width));
+			out.push_back(pickedRows(from_.tables[i], corner, width));
 			break;
 		case AttributeOf::Mesh:
-			out.push_back(rows_[i]);
+			out.push_back(from_.tables[i]);
 			break;
 		}
 	}
@@ -263,7 +304,8 @@ std::vector<std::uint8_t> AttributeWriter::rest(std::vector<Channel>& channels)
 	ByteWriter out;
 	out.fixed(digestOf(tables));
 	RangeEncoder coder;
-	syntax_.codeRest(coder, from_.known(), from_.restored(), tables);
+	Watch never;
+	syntax_.codeRest(coder, from_.known(), from_.restored(), tables, never);
 	const auto stream = coder.finish();
 	out.bytes.insert(out.bytes.end(), stream.begin(), stream.end());
 	channels = from_.channels();

@@ -9,13 +9,31 @@
 
 namespace wavemesh {
 
+/// The attributes of a mesh as they are coded.
+struct AttributeRows
+{
+	std::vector<Channel> channels;
+	Tables tables;
+
+	explicit AttributeRows(const MeshData& mesh);
+	/// Do two elements have the same in all attributes that levels have?
+	bool same(AttributeOf of, Index a, Index b) const;
+	/// Where the corners at an edge differ from those across it. @param cut  of that mesh
+	Seams seams(const MeshData& mesh, const ManifoldCut& cut) const;
+};
+
 class AttributeLevels
 {
 public:
+	/// @param from    of the original; must stay
 	/// @param levels  whole; nothing of it is kept
-	AttributeLevels(const MeshData& original, const QuantisedMesh& mesh, const Levels& levels);
+	AttributeLevels(
+	    const AttributeRows& from,
+	    const MeshData& original,
+	    const QuantisedMesh& mesh,
+	    const Levels& levels);
 
-	const std::vector<Channel>& channels() const { return channels_; }
+	const std::vector<Channel>& channels() const { return from_.channels; }
 	/// Of a level, counting splits only.
 	Tables tables(std::size_t level) const;
 	/// Of the restored mesh.
@@ -31,16 +49,15 @@ private:
 		std::vector<Index> face, corner; ///< of the finest level, which it takes its row from
 		std::vector<Index> chart;        ///< #F: piece between seams that its corners' rows are of
 	};
-	struct Seams;
+	struct Charts;
 
 	void coarsen(const Levels& levels);
-	bool sameRow(AttributeOf of, Index a, Index b) const;
 	Index usual(const Level& fine, const Descent& descent, Index first) const;
 	void takeCorners(
 	    const CornerTable& parent,
 	    const CornerTable& child,
 	    const Descent& descent,
-	    const Seams& seams,
+	    const Charts& charts,
 	    const Level& fine,
 	    Level& level) const;
 	Tables picked(
@@ -48,8 +65,7 @@ private:
 	    const std::vector<Index>& face,
 	    const std::vector<Index>& corner) const;
 
-	std::vector<Channel> channels_;
-	Tables rows_;                      ///< of the original
+	const AttributeRows& from_;
 	std::vector<Index> vertex_;        ///< #V_J: of the original, behind each of level J
 	std::vector<Index> face_, corner_; ///< the same of faces, corners
 	std::vector<Level> levels_;        ///< coarsest first

@@ -40,11 +40,13 @@ void AttributeReader::restore(
 	}
 }
 
-Status
-AttributeReader::readRest(RangeDecoder& coder, std::uint32_t digest, const RestoredMesh& restored)
+Status AttributeReader::readRest(
+    RangeDecoder& coder, std::uint32_t digest, const RestoredMesh& restored, Watch& watch)
 {
-	syntax_.codeRest(coder, known_, restored, std::move(restored_));
+	syntax_.codeRest(coder, known_, restored, std::move(restored_), watch);
 	restored_ = syntax_.tables();
+	if (watch.stopped())
+		return cancelled();
 	if (coder.exhausted())
 		return {StatusCode::Corrupt, "the attributes end although their chunk is whole"};
 	if (digestOf(restored_) != digest)

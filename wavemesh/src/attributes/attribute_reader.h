@@ -41,8 +41,9 @@ public:
 	    const RestoredMesh& restored,
 	    const std::vector<std::uint8_t>& turned);
 	/// The chunk behind the levels; restore() comes first.
-	/// @return Corrupt, ChecksumMismatch
-	Status readRest(RangeDecoder& coder, std::uint32_t digest, const RestoredMesh& restored);
+	/// @return Corrupt, ChecksumMismatch, Cancelled
+	Status
+	readRest(RangeDecoder& coder, std::uint32_t digest, const RestoredMesh& restored, Watch& watch);
 	/// Of the restored mesh.
 	/// @param order  of the original, or empty
 	std::vector<Attribute> restoredAttributes(const ElementOrder& order) const;

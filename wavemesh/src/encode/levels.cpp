@@ -10,12 +10,13 @@ std::optional<Levels> makeLevels(
     const QuantisedMesh& mesh,
     const GeometricalCriterion& criterion,
     const Steering& steering,
-    const Stage& stage)
+    const Stage& stage,
+    const Seams& seams)
 {
 	bool running         = true;
 	const auto keepGoing = [&](double fraction) { return running = stage(fraction); };
 	auto coarsenings     = coarsenAll(
-	        mesh.cut.table, mesh.positions, criterion, steering, keepGoing, mesh.cut.shared());
+	        mesh.cut.table, mesh.positions, criterion, steering, keepGoing, mesh.cut.shared(), seams);
 	if (!running)
 		return {};
 

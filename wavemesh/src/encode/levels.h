@@ -41,6 +41,7 @@ std::optional<Levels> makeLevels(
     const QuantisedMesh& mesh,
     const GeometricalCriterion& criterion,
     const Steering& steering,
-    const Stage& stage);
+    const Stage& stage,
+    const Seams& seams = {});
 
 } // namespace wavemesh

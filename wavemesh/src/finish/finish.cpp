@@ -67,7 +67,8 @@ void codeExact(
     Coder& coder,
     const Lattice& lattice,
     const std::vector<LatticePoint>& points,
-    Positions& values)
+    Positions& values,
+    Watch& watch)
 {
 	NumberFormat format;
 	if constexpr (!Coder::kReading)
@@ -76,7 +77,8 @@ void codeExact(
 	format.digits = int(codeRaw(coder, 4, std::uint32_t(format.digits + 1))) - 1;
 	ExactSyntax syntax(format, 3);
 	values.resize(points.size());
-	for (std::size_t v = 0; v < points.size() && !coder.exhausted(); ++v) {
+	for (std::size_t v = 0;
+	     v < points.size() && !coder.exhausted() && watch.goesOn(v, points.size()); ++v) {
 		const auto predicted = lattice.position(points[v]);
 		for (std::size_t k = 0; k < 3; ++k)
 			values[v][k] = syntax.code(coder, predicted[k], lattice.step, k, values[v][k]);
@@ -99,12 +101,17 @@ featuresFor(const EncodeOptions& options, const MeshData& original, const Manifo
 	    (options.exact ? 1 << kExact : 0) | (attributes ? 1 << kAttributes : 0));
 }
 
-void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>& chunks)
+bool writeFinish(
+    const FinishSource& from, Head& head, std::vector<std::uint8_t>& chunks, const Stage& stage)
 {
+	// Order and exact coordinates take about the same; all else is little.
+	const double middle    = !head.has(kExact) ? 1 : head.has(kOrder) ? 0.5 : 0;
+	const Stage firstStage = stage.part(0, middle), secondStage = stage.part(middle, 1);
+	Watch orderWatch(firstStage), exactWatch(secondStage);
 	head.vertices = Index(from.original.positions.size());
 	head.faces    = Index(from.original.triangles.size());
 	if (head.features == 0)
-		return;
+		return true;
 	const RestoredNumbers numbers = restoredNumbers(from.glue, from.finest.vertexCount);
 	RestoredSource source;
 	Restoration r = whatToRestore(
@@ -121,8 +128,10 @@ void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>
 		writeFeature(
 		    kOrder, digestOf(order, restored.triangles), head, chunks, [&](RangeEncoder& coder) {
 			    OrderSyntax<RangeEncoder>(coder, restored.triangles, head.vertices, from.finest)
-			        .code(order);
+			        .code(order, orderWatch);
 		    });
+		if (orderWatch.stopped())
+			return false;
 	}
 	if (head.has(kExact)) {
 		Positions values;
@@ -130,8 +139,10 @@ void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>
 		for (const Index v : source.vertex)
 			values.push_back(from.original.positions[v]);
 		writeFeature(kExact, digestOf(values), head, chunks, [&](RangeEncoder& coder) {
-			codeExact(coder, head.lattice, restored.points, values);
+			codeExact(coder, head.lattice, restored.points, values, exactWatch);
 		});
+		if (exactWatch.stopped())
+			return false;
 	}
 	if (head.has(kAttributes)) {
 		const auto payload             = from.attributes->rest(head.channels);
@@ -139,6 +150,7 @@ void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>
 		head.featureBytes[kAttributes] = payload.size();
 		writeChunk(kFeatureChunk[kAttributes], payload, chunks);
 	}
+	return true;
 }
 
 Finish::Finish(
@@ -155,7 +167,8 @@ Finish::Finish(
 		attributes_->restore(numbers_, restored_, {});
 }
 
-Status Finish::apply(Feature feature, const std::uint8_t* payload, std::size_t size)
+Status
+Finish::apply(Feature feature, const std::uint8_t* payload, std::size_t size, const Stage& stage)
 {
 	ByteReader in(payload, size);
 	std::uint32_t digest = 0;
@@ -163,15 +176,16 @@ Status Finish::apply(Feature feature, const std::uint8_t* payload, std::size_t s
 	if (in.failed())
 		return {StatusCode::Corrupt, "a chunk behind the levels is too short"};
 	RangeDecoder coder(payload + in.position(), size - in.position());
+	Watch watch(stage);
 	switch (feature) {
 	case kRestoration:
 		return restoration(coder, digest);
 	case kOrder:
-		return order(coder, digest);
+		return order(coder, digest, watch);
 	case kExact:
-		return exact(coder, digest);
+		return exact(coder, digest, watch);
 	case kAttributes:
-		return attributes_->readRest(coder, digest, restored_);
+		return attributes_->readRest(coder, digest, restored_, watch);
 	}
 	return {StatusCode::Corrupt, "a chunk behind the levels is of an unknown kind"};
 }
@@ -191,18 +205,22 @@ Status Finish::restoration(RangeDecoder& coder, std::uint32_t digest)
 	return digestOf(restored_) == digest ? Status() : wrongDigest("the restored mesh");
 }
 
-Status Finish::order(RangeDecoder& coder, std::uint32_t digest)
+Status Finish::order(RangeDecoder& coder, std::uint32_t digest, Watch& watch)
 {
 	OrderSyntax<RangeDecoder>(coder, restored_.triangles, Index(restored_.points.size()), finest_)
-	    .code(order_);
+	    .code(order_, watch);
+	if (watch.stopped())
+		return cancelled();
 	if (coder.exhausted())
 		return {StatusCode::Corrupt, "the order ends although its chunk is whole"};
 	return digestOf(order_, restored_.triangles) == digest ? Status() : wrongDigest("the order");
 }
 
-Status Finish::exact(RangeDecoder& coder, std::uint32_t digest)
+Status Finish::exact(RangeDecoder& coder, std::uint32_t digest, Watch& watch)
 {
-	codeExact(coder, head_.lattice, restored_.points, exact_);
+	codeExact(coder, head_.lattice, restored_.points, exact_, watch);
+	if (watch.stopped())
+		return cancelled();
 	if (coder.exhausted())
 		return {StatusCode::Corrupt, "the exact coordinates end although their chunk is whole"};
 	return digestOf(exact_) == digest ? Status() : wrongDigest("an exact coordinate");

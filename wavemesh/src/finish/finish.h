@@ -10,6 +10,7 @@
 #include "container/container.h"
 #include "entropy/range_coder.h"
 #include "finish/restoration.h"
+#include "stage.h"
 
 namespace wavemesh {
 
@@ -30,7 +31,9 @@ std::uint8_t
 featuresFor(const EncodeOptions& options, const MeshData& original, const ManifoldCut& cut);
 
 /// Appends a chunk for each of head.features and fills in what the head says of them.
-void writeFinish(const FinishSource& from, Head& head, std::vector<std::uint8_t>& chunks);
+/// @return false: the user wants to stop
+bool writeFinish(
+    const FinishSource& from, Head& head, std::vector<std::uint8_t>& chunks, const Stage& stage);
 
 /// The decoder's side: takes the chunks one after the other.
 class Finish
@@ -46,16 +49,18 @@ public:
 	    AttributeReader* attributes);
 
 	/// Applies the chunk of a feature; features come in their order.
-	/// @return Corrupt, ChecksumMismatch (of the digest); then the mesh is not to be used
-	Status apply(Feature feature, const std::uint8_t* payload, std::size_t size);
+	/// @return Corrupt, ChecksumMismatch (of the digest), Cancelled; then the mesh is not to be
+	/// used
+	Status
+	apply(Feature feature, const std::uint8_t* payload, std::size_t size, const Stage& stage);
 
 	/// The mesh with all that was applied.
 	MeshData mesh() const;
 
 private:
 	Status restoration(RangeDecoder& coder, std::uint32_t digest);
-	Status order(RangeDecoder& coder, std::uint32_t digest);
-	Status exact(RangeDecoder& coder, std::uint32_t digest);
+	Status order(RangeDecoder& coder, std::uint32_t digest, Watch& watch);
+	Status exact(RangeDecoder& coder, std::uint32_t digest, Watch& watch);
 
 	const Head& head_;
 	const CornerTable& finest_;

@@ -3,6 +3,7 @@
 
 #include "multires/coarsen_state.h"
 #include "multires/removal_error.h"
+#include "multires/seams.h"
 #include "multires/sharpness.h"
 
 #include <algorithm>
@@ -21,10 +22,11 @@ public:
 	    const std::vector<LatticePoint>& positions,
 	    const GeometricalCriterion& criterion,
 	    const std::vector<std::uint8_t>& kept,
-	    const ErrorCriterion& errorCriterion) :
+	    const ErrorCriterion& errorCriterion,
+	    const Seams* seams) :
 	        fine_(fine),
 	        state_(fine), sharpness_(fine, positions, criterion),
-	        error_(state_, positions, errorCriterion), faceSeen_(fine.faceCount(), 0)
+	        error_(state_, positions, errorCriterion), seams_(seams), faceSeen_(fine.faceCount(), 0)
 	{
 		for (Index v = 0; v < kept.size(); ++v)
 			if (kept[v])
@@ -63,7 +65,8 @@ private:
 	{
 		for (int i = 0; i < count; ++i)
 			if (!state_.isChild(proposals[i].child) &&
-			    !(sharpness_.allows(proposals[i]) && error_.allows(proposals[i], count == 2)))
+			    !((seams_ == nullptr || seams_->allows(proposals[i])) &&
+			      sharpness_.allows(proposals[i]) && error_.allows(proposals[i], count == 2)))
 				return false;
 		return true;
 	}
@@ -271,7 +274,7 @@ private:
 			grow();
 		else if (
 		    (!sharpness_.active() || !sharpness_.isSharp(v)) && state_.valence(v) == 3 &&
-		    error_.allowsCentre(v))
+		    error_.allowsCentre(v) && (seams_ == nullptr || seams_->allowsCentre(v)))
 			state_.addCentre(v);
 	}
 
@@ -279,6 +282,7 @@ private:
 	CoarsenState state_;
 	Sharpness sharpness_;
 	RemovalError error_;
+	const Seams* seams_;
 	std::vector<std::uint8_t> faceSeen_;
 	std::vector<Task> fresh_, sides_;
 	std::vector<Index> faces_; ///< corners
@@ -449,9 +453,10 @@ Coarsening coarsen(
     const std::vector<LatticePoint>& positions,
     const GeometricalCriterion& criterion,
     const std::vector<std::uint8_t>& kept,
-    const ErrorCriterion& errorCriterion)
+    const ErrorCriterion& errorCriterion,
+    const Seams* seams)
 {
-	Search search(fine, positions, criterion, kept, errorCriterion);
+	Search search(fine, positions, criterion, kept, errorCriterion, seams);
 	search.run();
 	return Emission(search.state()).run();
 }

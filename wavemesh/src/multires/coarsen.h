@@ -24,6 +24,7 @@ struct GeometricalCriterion
 };
 
 class Quadrics;
+class Seams;
 
 /// Only the vertices go whose removal makes the smallest errors (removal_error.h).
 struct ErrorCriterion
@@ -50,6 +51,7 @@ struct Coarsening
 /// @param fine       M^j, vertices without faces not allowed
 /// @param positions  #V_j by 3, lattice units, |x| < 2^30; guide the criterion and the choice only
 /// @param kept       #V_j: 1 for vertices that must stay; empty if any may go
+/// @param seams      of M^j, which stay
 /// @return M^{j-1}; the same connectivity with coarse.vertexCount == fine.vertexCount if nothing
 ///         could be merged. Linear.
 Coarsening coarsen(
@@ -57,6 +59,7 @@ Coarsening coarsen(
     const std::vector<LatticePoint>& positions,
     const GeometricalCriterion& criterion,
     const std::vector<std::uint8_t>& kept = {},
-    const ErrorCriterion& errorCriterion  = {});
+    const ErrorCriterion& errorCriterion  = {},
+    const Seams* seams                    = nullptr);
 
 } // namespace wavemesh

@@ -22,6 +22,12 @@ bool worthwhile(Index coarse, Index fine)
 	return coarse < fine && (fine <= kSmall || coarse <= fine - fine / 16);
 }
 
+/// Seams that leave less to remove cost the surface beside them more than they are worth.
+bool worthItsSeams(Index coarse, Index fine)
+{
+	return coarse <= fine - fine / 6;
+}
+
 template <class Value>
 std::vector<Value> pick(const std::vector<Value>& values, const std::vector<Index>& rows)
 {
@@ -78,15 +84,17 @@ Coarsening steer(
     const CornerTable& fine,
     const std::vector<LatticePoint>& points,
     const std::vector<std::uint8_t>& kept,
-    ErrorCriterion criterion)
+    ErrorCriterion criterion,
+    const Seams& seams)
 {
+	Coarsening step;
 	for (const double share : {criterion.share, kLenientShare}) {
 		criterion.share = share;
-		Coarsening step = coarsen(fine, points, {}, kept, criterion);
+		step            = coarsen(fine, points, {}, kept, criterion, &seams);
 		if (worthwhile(step.coarse.vertexCount, fine.vertexCount))
 			return step;
 	}
-	return coarsen(fine, points, {}, kept);
+	return seams.any() ? step : coarsen(fine, points, {}, kept);
 }
 
 /// One step by connectivity, and the geometrical criterion.
@@ -94,12 +102,13 @@ Coarsening coarsenFreely(
     const CornerTable& fine,
     const std::vector<LatticePoint>& points,
     const GeometricalCriterion& criterion,
-    const std::vector<std::uint8_t>& kept)
+    const std::vector<std::uint8_t>& kept,
+    const Seams& seams)
 {
-	Coarsening step = coarsen(fine, points, criterion, kept);
+	Coarsening step = coarsen(fine, points, criterion, kept, {}, &seams);
 	// Where nearly everything is sharp the criterion would stop the coarsening for good.
 	if (criterion.active && step.coarse.vertexCount > fine.vertexCount - fine.vertexCount / 4)
-		step = coarsen(fine, points, {}, kept);
+		step = coarsen(fine, points, {}, kept, {}, &seams);
 	return step;
 }
 
@@ -111,7 +120,8 @@ std::vector<Coarsening> coarsenAll(
     const GeometricalCriterion& criterion,
     const Steering& steering,
     const std::function<bool(double)>& step,
-    const std::vector<std::uint8_t>& kept)
+    const std::vector<std::uint8_t>& kept,
+    Seams seams)
 {
 	std::vector<Coarsening> steps;
 	const CornerTable* fine          = &table;
@@ -120,21 +130,27 @@ std::vector<Coarsening> coarsenAll(
 	Quadrics quadrics;
 	const bool steered = steering.freeSteps != Steering::kNever;
 	double share       = steering.firstShare;
-	for (int i = 0;; ++i) {
+	for (;;) {
+		const int i = int(steps.size());
 		Coarsening next;
 		bool free = i < steering.freeSteps;
 		if (free)
-			next = coarsenFreely(*fine, points, criterion, stay);
+			next = coarsenFreely(*fine, points, criterion, stay, seams);
 		if (steered && i == 0)
 			quadrics = Quadrics(table, positions);
 		if (free && steered)
 			free = excessError(*fine, points, quadrics, next) <= kFreeExcess;
 		if (!free) {
-			next  = steer(*fine, points, stay, {&quadrics, share});
+			next  = steer(*fine, points, stay, {&quadrics, share}, seams);
 			share = steering.share;
+		}
+		if (seams.any() && !worthItsSeams(next.coarse.vertexCount, fine->vertexCount)) {
+			seams = {};
+			continue;
 		}
 		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount))
 			break;
+		seams.carry(next);
 		if (steered)
 			quadrics.carry(next, points);
 		points = pick(points, next.fineVertex);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "multires/coarsen.h"
+#include "multires/seams.h"
 
 #include <functional>
 #include <limits>
@@ -25,6 +26,7 @@ struct Steering
 
 /// @param criterion  steers the steps that `steering` does not
 /// @param kept  #V: 1 for vertices that stay in every level; empty if any may go
+/// @param seams stay as long as enough else can go
 /// @param step  called after each level with the fraction of vertices gone, 0..1; false stops
 /// @return the coarsenings, finest first; empty if nothing can be merged
 /// Linear: each level costs as much as it has faces, and has at most 15/16 of the vertices of the
@@ -35,7 +37,8 @@ std::vector<Coarsening> coarsenAll(
     const GeometricalCriterion& criterion,
     const Steering& steering,
     const std::function<bool(double)>& step,
-    const std::vector<std::uint8_t>& kept = {});
+    const std::vector<std::uint8_t>& kept = {},
+    Seams seams                           = {});
 
 struct ReplayedLevel
 {

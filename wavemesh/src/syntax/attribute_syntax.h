@@ -7,6 +7,7 @@
 
 #include "attributes/descent.h"
 #include "finish/restoration.h"
+#include "stage.h"
 #include "syntax/exact_syntax.h"
 #include "syntax/lattice_syntax.h"
 #include "syntax/normal_syntax.h"
@@ -103,28 +104,33 @@ public:
 	/// and edges of polygons.
 	/// @param mesh  the restored one
 	/// @param next  tables of the restored mesh; reading: right as far as known
+	/// What was coded is of no use if `watch` stopped.
 	template <class Coder>
-	void
-	codeRest(Coder& coder, const std::array<Index, 3>& known, const RestoredMesh& mesh, Tables next)
+	void codeRest(
+	    Coder& coder,
+	    const std::array<Index, 3>& known,
+	    const RestoredMesh& mesh,
+	    Tables next,
+	    Watch& watch)
 	{
-		tables_ = std::move(next);
+		tables_          = std::move(next);
+		std::size_t done = 0, all = 0;
 		for (std::size_t i = 0; i < channels_.size(); ++i)
-			if (channels_[i].of != AttributeOf::Mesh)
-				counted(coder, i, [&] {
-					const auto count = Index(tables_[i].size() / width(i));
-					if (channels_[i].isNormal()) {
-						const std::vector<double> expected =
-						    toRows(channels_[i], normalsOf(mesh, channels_[i].of));
-						for (Index row = 0; row < count; ++row)
-							codeRow(
-							    coder, i, row,
-							    {expected.data() + row * width(i), nullptr, nullptr, nullptr});
-						return;
-					}
-					const auto of = std::size_t(channels_[i].of);
-					for (Index row = channels_[i].inLevels() ? known[of] : 0; row < count; ++row)
-						codeRow(coder, i, row, rowsBefore(i, row));
-				});
+			all += rowsFrom(i, firstOfRest(i, known));
+		for (std::size_t i = 0; i < channels_.size() && !watch.stopped(); ++i)
+			counted(coder, i, [&] {
+				std::vector<double> normals;
+				if (channels_[i].isNormal())
+					normals = toRows(channels_[i], normalsOf(mesh, channels_[i].of));
+				const Index first = firstOfRest(i, known);
+				const Index end   = first + rowsFrom(i, first);
+				for (Index row = first; row < end && watch.goesOn(done++, all); ++row)
+					codeRow(
+					    coder, i, row,
+					    channels_[i].isNormal()
+					        ? NearRows {normals.data() + row * width(i), nullptr, nullptr, nullptr}
+					        : rowsBefore(i, row));
+			});
 	}
 
 	/// Of the level reached.
@@ -153,6 +159,18 @@ private:
 	bool same(std::size_t i, const double* a, const double* b) const
 	{
 		return a == b || (a && b && std::memcmp(a, b, width(i) * sizeof *a) == 0);
+	}
+
+	/// The first row of a channel that is on no level, and how many there are from it on.
+	Index firstOfRest(std::size_t i, const std::array<Index, 3>& known) const
+	{
+		const Channel& c = channels_[i];
+		return c.of == AttributeOf::Mesh || !c.inLevels() ? 0 : known[std::size_t(c.of)];
+	}
+	Index rowsFrom(std::size_t i, Index first) const
+	{
+		return channels_[i].of == AttributeOf::Mesh ? 0
+		                                            : Index(tables_[i].size() / width(i)) - first;
 	}
 
 	/// Goes on to the next level's tables.

@@ -8,6 +8,7 @@
 #include "entropy/models.h"
 #include "finish/element_order.h"
 #include "finish/rank_set.h"
+#include "stage.h"
 
 #include <memory>
 
@@ -28,21 +29,22 @@ public:
 		last_.fill(kNone);
 	}
 
-	/// Reading, leaves what is not known where the data end. O(log n) an element.
-	void code(ElementOrder& order)
+	/// Reading, leaves what is not known where the data end. What was coded is of no use if
+	/// `watch` stopped. O(log n) an element.
+	void code(ElementOrder& order, Watch& watch)
 	{
 		const Index count = Index(faces_.size());
 		wanted_           = std::move(order.vertex);
 		order.face.resize(count);
 		order.first.resize(count);
-		for (Index i = 0; i < count && !coder_.exhausted(); ++i) {
+		for (Index i = 0; i < count && !coder_.exhausted() && watch.goesOn(i, count); ++i) {
 			const Index f  = codeFace(order.face[i]);
 			order.face[i]  = f;
 			order.first[i] = codeFirst(f, order.first[i]);
 			codeNumbers(f, order.first[i]);
 			emit(f, order.first[i]);
 		}
-		for (Index v = 0; v < number_.size() && !coder_.exhausted(); ++v)
+		for (Index v = 0; v < number_.size() && !coder_.exhausted() && !watch.stopped(); ++v)
 			if (number_[v] == kNone)
 				codeNumber(v, kNone, kNone, kNone, 3);
 		order.vertex = std::move(number_);
