@@ -8,15 +8,16 @@
 
 namespace wavemesh::test {
 
-const std::vector<std::string> kSamples {"blob",   "bracket", "island", "pebble",
-                                         "pieces", "pretzel", "vase"};
+const std::vector<std::string> kSamples {"blob",   "bracket", "die",     "island",
+                                         "pebble", "pieces",  "pretzel", "vase"};
 
 const std::vector<Configuration> kConfigurations {
     {"I", Mode::Classic, kLiftingOff, Wgc::Off, Optimize::Size, 2},
     {"II", Mode::Classic, 0, Wgc::Off, Optimize::Size, 2},
     {"III", Mode::Classic, 0, Wgc::On, Optimize::Size, 2},
     {"compact_2", Mode::Compact, 0, Wgc::Auto, Optimize::Balanced, 2},
-    {"compact_3", Mode::Compact, 0, Wgc::Auto, Optimize::Balanced, 3}};
+    {"compact_3", Mode::Compact, 0, Wgc::Auto, Optimize::Balanced, 3},
+    {"size_3", Mode::Compact, 0, Wgc::Auto, Optimize::Size, 3}};
 
 namespace {
 
@@ -32,6 +33,7 @@ struct PlyHeader
 {
 	std::size_t vertices = 0, faces = 0;
 	std::size_t behindPosition = 0; ///< bytes of a vertex after its coordinates
+	std::size_t listsOfFace    = 0; ///< of numbers of four bytes
 };
 
 PlyHeader readHeader(std::istream& in)
@@ -48,6 +50,8 @@ PlyHeader readHeader(std::istream& in)
 		}
 		else if (key == "property" && ofVertex && name != "x" && name != "y" && name != "z")
 			h.behindPosition += type == "uchar" ? 1 : 4;
+		else if (key == "property" && type == "list")
+			++h.listsOfFace;
 	}
 	return h;
 }
@@ -73,6 +77,8 @@ MeshData readSamplePly(const std::string& path)
 		m.triangles.emplace_back();
 		for (std::uint32_t& v : m.triangles.back())
 			v = static_cast<std::uint32_t>(take<std::int32_t>(in));
+		for (std::size_t list = 1; list < h.listsOfFace; ++list)
+			in.ignore(4 * take<std::uint8_t>(in));
 	}
 	if (!in)
 		throw std::runtime_error(path + " ends early");

@@ -109,9 +109,11 @@ TEST_F(WmcTest, AFailedCommandLeavesTheOldFile)
 	writeAll(path("bad.wmc"), std::string("this is no wmc"));
 	writeAll(path("out.ply"), std::string("precious"));
 	EXPECT_EQ(runWmc({"decode", path("bad.wmc"), path("out.ply")}).code, 1);
-	EXPECT_EQ(runWmc({"encode", path("bad.wmc"), path("out.ply")}).code, 1);
+	writeAll(path("out.wmc"), std::string("precious"));
+	EXPECT_EQ(runWmc({"encode", path("bad.wmc"), path("out.wmc")}).code, 1);
 	EXPECT_EQ(readAll(path("out.ply")).size(), 8u);
-	EXPECT_EQ(files(), (Names {"bad.wmc", "out.ply"}));
+	EXPECT_EQ(readAll(path("out.wmc")).size(), 8u);
+	EXPECT_EQ(files(), (Names {"bad.wmc", "out.ply", "out.wmc"}));
 }
 
 TEST_F(WmcTest, AFolderIsNoFile)

@@ -63,7 +63,7 @@ void CodecOptions::addTo(CLI::App& command)
 	    .add_option(
 	        "--effort", effort,
 	        "1 is the fastest, and always writes the classic mode, without lifting unless --mode "
-	        "classic; 2 encodes in one way, small meshes in 3 to 8, and 3 in 7 to 65 ways, of "
+	        "classic; 2 encodes in one way, small meshes in 2 to 12, and 3 in 6 to 77 ways, of "
 	        "which the best file is kept. Decoding takes at most about 2, 15 and 20 microseconds "
 	        "a vertex")
 	    ->check(CLI::IsMember({1, 2, 3}))

@@ -165,11 +165,10 @@ private:
 	bool tryCompact(
 	    const Levels& levels, const Attributes& attributes, const Way& way, const Stage& stage)
 	{
-		double done = 0;
-		for (const Plan& plan : way.plans) {
-			const double share = 1 / double(way.plans.size());
-			const Stage part   = stage.part(done, done + share);
-			done += share;
+		const auto tries = double(way.plans.size());
+		for (std::size_t i = 0; i < way.plans.size(); ++i) {
+			const Plan& plan = way.plans[i];
+			const Stage part = stage.part(double(i) / tries, double(i + 1) / tries);
 			Head head       = headOf(levels, way);
 			head.predictors = plan.predictors;
 			std::vector<std::uint8_t> chunks;

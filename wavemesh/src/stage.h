@@ -18,14 +18,14 @@ public:
 	/// False: the user wants to stop.
 	bool operator()(double fraction) const
 	{
-		return !progress_ || progress_(from_ + fraction * (to_ - from_));
+		return !progress_ || progress_(at(fraction));
 	}
-	Stage part(double from, double to) const
-	{
-		return {progress_, from_ + from * (to_ - from_), from_ + to * (to_ - from_)};
-	}
+	Stage part(double from, double to) const { return {progress_, at(from), at(to)}; }
 
 private:
+	/// Exact at both ends, so that the next stage never begins before this one's end.
+	double at(double fraction) const { return (1 - fraction) * from_ + fraction * to_; }
+
 	const Progress& progress_;
 	double from_, to_;
 };

@@ -57,8 +57,8 @@ struct EncodeOptions
 	Mode mode = Mode::Compact;
 	/// What encoding and decoding may cost, 1..3. 1 is the fastest: the contexts of connectivity
 	/// are fewer, and a compact file becomes a classic one without lifting. 2 chooses a schedule by
-	/// a look at the mesh, but tries up to 8 below 4096 vertices, and 3 below 16384 to be sure of
-	/// what Balanced promises; 3 encodes in 7 to 65 ways. Decoding costs at most about 2, 15 and 20
+	/// a look at the mesh, but tries up to 12 below 4096 vertices, and 5 below 16384 to be sure of
+	/// what Balanced promises; 3 encodes in 6 to 77 ways. Decoding costs at most about 2, 15 and 20
 	/// microseconds a vertex of the original (README: speed), whatever the mesh.
 	int effort = 2;
 

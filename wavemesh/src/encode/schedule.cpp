@@ -89,18 +89,18 @@ Schedule makeSchedule(const Levels& levels, int latticeBits, const ScheduleOptio
 	schedule.baseShift = shift;
 	if (levels.splits() == 0)
 		schedule.baseShift = shift = 0;
-	const auto sharpen = [&](int target) {
+	const auto sharpen = [&](int target, bool last) {
 		while (shift > target) {
 			const int rest = shift - target;
-			const int bits =
-			    target == 0 && rest <= options.lastBits ? rest : std::min(rest, options.bits);
+			const int bits = last && rest <= options.lastBits ? rest : std::min(rest, options.bits);
 			schedule.steps.push_back({LevelKind::Precise, bits});
 			shift -= bits;
 		}
 	};
 	for (std::size_t i = 1; i <= levels.splits(); ++i) {
 		schedule.steps.push_back({LevelKind::Split, 0});
-		sharpen(i == levels.splits() ? 0 : shiftOf(i));
+		const bool last = i == levels.splits();
+		sharpen(last ? 0 : shiftOf(i), last);
 	}
 	return schedule;
 }

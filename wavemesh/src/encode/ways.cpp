@@ -10,38 +10,42 @@ namespace {
 constexpr std::size_t kSmall = 4096;  ///< vertices; their time is nothing
 constexpr std::size_t kLarge = 16384; ///< vertices; here speed counts
 
-/// Cells as this aim wants them, of a surface that is smooth.
-ScheduleOptions smoothCells(Optimize aim)
+/// How narrow the cells of the levels are.
+struct Cells
 {
-	ScheduleOptions options;
-	if (aim == Optimize::Balanced)
-		options.cellSixteenths = 4;
-	if (aim == Optimize::Levels)
-		options.cellErrors = 2;
-	return options;
-}
+	/// ScheduleOptions::cellSixteenths and lastSplitSixteenths where surfaces are smooth.
+	int sixteenths, lastSplit;
+	/// ScheduleOptions::cellErrors, and the same where coordinates repeat: they are cheaper exact
+	/// from the start than half known.
+	double errors, errorsOfRepeats;
+};
+constexpr Cells kCellsForLevels {8, 8, 2, 2};
+constexpr Cells kCellsForBalanced {4, 8, 0, 0.25};
+constexpr Cells kCellsBetween {6, 6, 0, 0.5};
+constexpr Cells kCellsForSize {8, 8, 0, 0};
 
-/// The same where coordinates repeat: they are cheaper exact from the start than half known.
-ScheduleOptions repeatingCells(Optimize aim)
+Cells cellsFor(Optimize aim)
 {
-	ScheduleOptions options;
-	options.lastBits = ScheduleOptions::kAll;
-	if (aim == Optimize::Balanced)
-		options.cellErrors = 0.25;
-	if (aim == Optimize::Levels)
-		options.cellErrors = 2;
-	return options;
+	return aim == Optimize::Levels     ? kCellsForLevels
+	       : aim == Optimize::Balanced ? kCellsForBalanced
+	                                   : kCellsForSize;
 }
 
 /// A plan but for its rank.
 using Coding = std::pair<ScheduleOptions, PredictorSet>;
 
-/// The codings of one way to make levels, with cells as this aim wants them.
-std::vector<Coding> codings(int effort, Optimize aim, std::size_t vertices, bool repeating)
+/// The codings of one way to make levels.
+std::vector<Coding>
+codings(int effort, const Cells& cells, std::size_t vertices, bool repeating)
 {
 	const PredictorSet all = PredictorSet::All, repeats = PredictorSet::Repeats;
 	const bool small       = vertices < kSmall;
-	ScheduleOptions smooth = smoothCells(aim), exact = repeatingCells(aim);
+	ScheduleOptions smooth, exact;
+	smooth.cellSixteenths      = cells.sixteenths;
+	smooth.lastSplitSixteenths = cells.lastSplit;
+	smooth.cellErrors          = cells.errors;
+	exact.lastBits             = ScheduleOptions::kAll;
+	exact.cellErrors           = cells.errorsOfRepeats;
 	if (effort < 3) {
 		if (small)
 			return {{smooth, all}, {exact, repeats}};
@@ -56,7 +60,7 @@ std::vector<Coding> codings(int effort, Optimize aim, std::size_t vertices, bool
 		some.push_back({schedule, set});
 	};
 	const auto addWidths = [&some](ScheduleOptions schedule, PredictorSet set) {
-		for (const int width : {4, 6, 12}) {
+		for (const int width : {4, 12}) {
 			schedule.cellSixteenths = schedule.lastSplitSixteenths = width;
 			some.push_back({schedule, set});
 		}
@@ -99,9 +103,9 @@ std::vector<Way> waysToEncode(const EncodeOptions& options, std::size_t vertices
 	std::vector<Way> ways;
 	std::size_t rank = 0;
 	// The best levels come first.
-	const auto add = [&](Optimize vertex, bool wgc, std::initializer_list<Optimize> cells) {
-		ways.push_back({vertex, wgc, {}});
-		for (const Optimize cell : cells) {
+	const auto add = [&](Optimize aim, bool wgc, std::initializer_list<Cells> cells) {
+		ways.push_back({aim, wgc, {}});
+		for (const Cells& cell : cells) {
 			if (classic)
 				ways.back().plans.push_back({rank, {}});
 			else
@@ -112,26 +116,26 @@ std::vector<Way> waysToEncode(const EncodeOptions& options, std::size_t vertices
 				break;
 		}
 	};
-	const Optimize aim = options.optimize;
+	const Optimize wanted = options.optimize;
 	if (options.wgc != Wgc::Auto)
-		add(aim, options.wgc == Wgc::On && aim != Optimize::Levels, {aim}); // which never asks it
-	else if (vertices < kSmall && aim != Optimize::Levels) {
-		add(Optimize::Levels, false, {Optimize::Levels});
-		add(Optimize::Balanced, false, {Optimize::Balanced, Optimize::Size});
-		add(Optimize::Size, false, {Optimize::Size});
+		add(wanted, options.wgc == Wgc::On && wanted != Optimize::Levels, {cellsFor(wanted)});
+	else if (vertices < kSmall && wanted != Optimize::Levels) {
+		add(Optimize::Levels, false, {kCellsForLevels});
+		add(Optimize::Balanced, false, {kCellsForBalanced, kCellsBetween, kCellsForSize});
+		add(Optimize::Size, false, {kCellsBetween, kCellsForSize});
 		if (classic || options.effort == 3)
-			add(Optimize::Size, true, {Optimize::Size});
+			add(Optimize::Size, true, {kCellsForSize});
 	}
 	else if (
-	    aim == Optimize::Balanced &&
+	    wanted == Optimize::Balanced &&
 	    (options.effort == 3 || (options.effort == 2 && vertices < kLarge))) {
-		add(Optimize::Balanced, false, {Optimize::Balanced, Optimize::Size});
-		add(Optimize::Size, false, {Optimize::Size});
+		add(Optimize::Balanced, false, {kCellsForBalanced, kCellsBetween, kCellsForSize});
+		add(Optimize::Size, false, {kCellsBetween, kCellsForSize});
 	}
 	else {
-		add(aim, false, {aim});
-		if (aim == Optimize::Size && (options.mode == Mode::Classic || options.effort == 3))
-			add(aim, true, {aim});
+		add(wanted, false, {cellsFor(wanted)});
+		if (wanted == Optimize::Size && (options.mode == Mode::Classic || options.effort == 3))
+			add(wanted, true, {kCellsForSize});
 	}
 	return ways;
 }
