@@ -169,8 +169,8 @@ private:
 		for (std::size_t i = 0; i < way.plans.size(); ++i) {
 			const Plan& plan = way.plans[i];
 			const Stage part = stage.part(double(i) / tries, double(i + 1) / tries);
-			Head head       = headOf(levels, way);
-			head.predictors = plan.predictors;
+			Head head        = headOf(levels, way);
+			head.predictors  = plan.predictors;
 			std::vector<std::uint8_t> chunks;
 			const Schedule schedule = makeSchedule(levels, mesh_.lattice.bits, plan.schedule);
 			auto writer             = writerFor(attributes);

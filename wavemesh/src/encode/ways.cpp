@@ -35,11 +35,10 @@ Cells cellsFor(Optimize aim)
 using Coding = std::pair<ScheduleOptions, PredictorSet>;
 
 /// The codings of one way to make levels.
-std::vector<Coding>
-codings(int effort, const Cells& cells, std::size_t vertices, bool repeating)
+std::vector<Coding> codings(int effort, const Cells& cells, std::size_t vertices, bool repeating)
 {
 	const PredictorSet all = PredictorSet::All, repeats = PredictorSet::Repeats;
-	const bool small       = vertices < kSmall;
+	const bool small = vertices < kSmall;
 	ScheduleOptions smooth, exact;
 	smooth.cellSixteenths      = cells.sixteenths;
 	smooth.lastSplitSixteenths = cells.lastSplit;

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "encode/schedule.h"
-#include "predict/predictor_set.h"
 #include "multires/hierarchy.h"
+#include "predict/predictor_set.h"
 
 #include <wavemesh/codec.h>
 
@@ -18,7 +18,7 @@ namespace wavemesh {
 struct Plan
 {
 	std::size_t rank; ///< by the quality of the levels, 0 the best; several plans may share one
-	ScheduleOptions schedule;                       ///< compact mode only
+	ScheduleOptions schedule;                        ///< compact mode only
 	PredictorSet predictors = PredictorSet::Repeats; ///< compact mode only
 };
 
@@ -55,7 +55,7 @@ public:
 	EncodedMesh take();
 
 private:
-	double most_; ///< bytes, in units of the smallest file's
+	double most_;                                      ///< bytes, in units of the smallest file's
 	std::vector<std::optional<EncodedMesh>> smallest_; ///< of each rank
 };
 
