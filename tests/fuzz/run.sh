@@ -26,6 +26,8 @@ corpora=$PWD/build-fuzz/corpus
 ((at_once = jobs < ${#targets[@]} ? jobs : ${#targets[@]}))
 ((seconds = minutes * 60 * at_once / ${#targets[@]}))
 
+# A hang shows after two minutes as well as after a few seconds, and a busy machine does not look
+# like one.
 fuzz() {
 	local target=$1 seeds=files
 	[[ $target == round_trip_fuzz || $target == coder_fuzz ]] && seeds=bytes
@@ -34,7 +36,7 @@ fuzz() {
 	[[ -d tests/fuzz/findings/$target ]] && given+=("tests/fuzz/findings/$target")
 	[[ $seeds == files ]] && given+=(tests/golden)
 	echo "-- $target: $seconds seconds; log in $corpora/$target.log"
-	if "$programs/$target" -max_total_time="$seconds" -max_len=4096 -timeout=25 -rss_limit_mb=2500 \
+	if "$programs/$target" -max_total_time="$seconds" -max_len=4096 -timeout=120 -rss_limit_mb=2500 \
 		-artifact_prefix="$corpora/findings/$target-" -print_final_stats=1 \
 		"$corpora/$target" "${given[@]}" >"$corpora/$target.log" 2>&1; then
 		echo "-- $target: nothing found in $(sed -n 's/^stat::number_of_executed_units: *//p' "$corpora/$target.log") runs"
