@@ -60,21 +60,25 @@ private:
 		int side;
 	};
 
-	/// Do the criteria let these vertices go? Two at once complete a 4:1 merge.
-	bool allows(const ChildOf* proposals, int count) const
+	/// Do the criteria but that of the error let the vertex go?
+	bool allows(const ChildOf& p) const
 	{
-		for (int i = 0; i < count; ++i)
-			if (!state_.isChild(proposals[i].child) &&
-			    !((seams_ == nullptr || seams_->allows(proposals[i])) &&
-			      sharpness_.allows(proposals[i]) && error_.allows(proposals[i], count == 2)))
-				return false;
-		return true;
+		return (seams_ == nullptr || seams_->allows(p)) && sharpness_.allows(p);
 	}
 
+	/// Two vertices at once complete a 4:1 merge.
 	bool add(const ChildOf* proposals, int count)
 	{
-		if (!allows(proposals, count))
-			return false;
+		for (int i = 0; i < count; ++i)
+			if (const ChildOf& p = proposals[i];
+			    !state_.isChild(p.child) &&
+			    !(state_.isOpen(p) && allows(p) && error_.allows(p, count == 2)))
+				return false;
+		return addAllowed(proposals, count);
+	}
+
+	bool addAllowed(const ChildOf* proposals, int count)
+	{
 		bool fresh[2] = {false, false};
 		for (int i = 0; i < count; ++i)
 			fresh[i] = !state_.isChild(proposals[i].child);
@@ -243,7 +247,8 @@ private:
 		int count = 0;
 		for (int i = 0; i < s.size; ++i)
 			for (int k = i + 2; k < s.size; ++k) {
-				if (!CoarsenState::fits(s, i, k))
+				if (!CoarsenState::fits(s, i, k) || state_.isChild(s.ring[i]) ||
+				    state_.isChild(s.ring[k]))
 					continue;
 				const double error = error_.relative({v, s.ring[i], s.ring[k]});
 				if (error > 1)
@@ -261,7 +266,7 @@ private:
 			}
 		for (int i = 0; i < count; ++i) {
 			const ChildOf p {v, options[i].a, options[i].b};
-			if (add(&p, 1))
+			if (allows(p) && addAllowed(&p, 1))
 				return true;
 		}
 		return false;

@@ -229,7 +229,7 @@ bool CoarsenState::settleSideWith(Index child, Index neighbour)
 
 bool CoarsenState::propose(const ChildOf& p)
 {
-	if (isChild(p.child) || isParent(p.child) || isChild(p.parentA) || isChild(p.parentB))
+	if (!isOpen(p))
 		return false;
 	const Star& s = stars_[p.child];
 	const int a = s.find(p.parentA), b = s.find(p.parentB);

@@ -102,6 +102,13 @@ public:
 		return o == kNone ? kNone : fine_.vertex[o];
 	}
 
+	/// Is the vertex undecided, and could these still be parents? What add() asks first.
+	bool isOpen(const ChildOf& p) const
+	{
+		return !isChild(p.child) && !isParent(p.child) && !isChild(p.parentA) &&
+		       !isChild(p.parentB);
+	}
+
 	/// `v` never becomes a child; it counts as a parent from now on.
 	void keep(Index v) { ++vertex_[v].childCount; }
 	/// Makes one or two vertices children, all or none. Vertices that are one already, with the
