@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reference decoder of .wmc mesh files, version 0.4.
+"""Reference decoder of .wmc mesh files, version 0.5.
 
 Written from docs/wmc_format.md alone, without a look at any other implementation. It follows that document's
 sections and names: whoever reads one should find his way in the other. It is meant to be read and to be compared
@@ -204,7 +204,7 @@ def read_head(data):
     if chunk.type != "H":
         raise corrupt("the first chunk is not the head")
     payload = chunk.payload
-    if len(payload) >= 2 and (payload[0] != 0 or payload[1] != 4):
+    if len(payload) >= 2 and (payload[0] != 0 or payload[1] != 5):
         raise Outcome("VersionTooNew", "version %d.%d" % (payload[0], payload[1]))
     if not chunk.whole:
         raise Outcome("Truncated", "in the head")
@@ -1523,9 +1523,33 @@ def likely(mesh, cells, b, glue):
 # ----------------------------------------------------------------------------------------------------------------
 
 def shown(mesh, cells, s, parents, bits, glue):
-    """parents of the vertices that the last split brought"""
-    L = likely(mesh, cells, s, glue)
-    n = normals(mesh, [shifted(p, max(0, bits - 16)) for p in L])
+    """parents of the vertices that the last split brought; none: smoothed only"""
+    middle = [tuple((16 * x << s) + 8 * ((1 << s) - 1) for x in cell) for cell in cells]
+    r = 8 * ((1 << s) - 1)
+
+    def normals_of(L):
+        return normals(mesh, [shifted(p, max(0, bits - 16)) for p in L])
+
+    def smooth(L, g):
+        n = normals_of(L)
+        bend = around(mesh, around(mesh, L))                # of the laplacian; B is its negative
+        e = max(0, s - 8)
+        R = r >> e
+        result = []
+        for v in range(mesh.vertices):
+            if glue and glue.shared(v):
+                result.append(middle[v])
+                continue
+            w = along(tuple(-x for x in bend[v]), n[v]) >> e
+            W = (g * trunc_div(3 * R * R * w, 3 * R * R + w * w)) << e
+            result.append(tuple(m + clamp(L[v][k] + ((W * n[v][k]) >> 16) - m, -r, r)
+                                for k, m in enumerate(middle[v])))
+        return result
+
+    if not parents:
+        return smooth(smooth(middle, 3), 3)
+    L = smooth(middle, 2)
+    n = normals_of(L)
 
     def g(u, v):
         """the height, or None if the pair is steep"""
@@ -1557,9 +1581,8 @@ def shown(mesh, cells, s, parents, bits, glue):
             result.append(L[v])
             continue
         G = trunc_div(sum(g(v, u) or 0 for u in around_v), len(around_v))
-        m = [(16 * x << s) + 8 * ((1 << s) - 1) for x in cells[v]]
-        r = 8 * ((1 << s) - 1)
-        result.append(tuple(m[k] + clamp(L[v][k] + ((t * G * n[v][k]) >> 22) - m[k], -r, r) for k in range(3)))
+        result.append(tuple(m + clamp(L[v][k] + ((t * G * n[v][k]) >> 22) - m, -r, r)
+                            for k, m in enumerate(middle[v])))
     return result
 
 
@@ -3524,7 +3547,7 @@ def write_obj(path, vertices, faces):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Reference decoder of .wmc mesh files, version 0.4.")
+    parser = argparse.ArgumentParser(description="Reference decoder of .wmc mesh files, version 0.5.")
     parser.add_argument("file")
     parser.add_argument("--level", type=int, help="the level to decode; the finest if not given")
     parser.add_argument("--output", help="an OBJ file to write")

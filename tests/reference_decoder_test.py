@@ -5,6 +5,8 @@
     reference_decoder_test.py WMC FOLDER_FOR_OUTPUT FILE.wmc...     with wmc: positions and faces of several levels
     reference_decoder_test.py --index INDEX.txt                     with the goldens' index: outcome, level, and every
                                                                     number of the mesh, attributes too, bit for bit
+    reference_decoder_test.py --example FORMAT.md FILE.wmc          the example in the format's document: its bytes, and
+                                                                    what the document says of them
 """
 
 import os
@@ -96,6 +98,45 @@ def compare_with_index(index):
     return failed or not lines
 
 
+def example_in(text):
+    """The bytes of the document's example, told apart from other blocks by the magic"""
+    at = text.index("    8b 57 4d 43 ")
+    return bytes.fromhex(text[at:text.index("\n\n", at)])
+
+
+def describe_example(data):
+    """The rows of the tables in the document's Appendix B"""
+    head = reference.Decoder(data).head
+
+    def row(name, cells):
+        return "| %s | %s |" % (name, " | ".join(map(str, cells)))
+
+    def points(rows):
+        return " ".join("(%d %d %d)" % tuple(row) for row in rows).replace("-", "\N{MINUS SIGN}")
+
+    rows = [row(name, getattr(head, name)) for name in ("vertices", "faces", "bytes", "connectivity", "error", "ends")]
+    rows.append(row("prefix", reference.level_prefixes(head, reference.read_head(data)[1])))
+    for level in range(head.J + 1):
+        decoder = reference.Decoder(data)
+        decoder.decode(level)
+        faces = decoder.result()[1]
+        rows.append(row(level, [points(decoder.positions), points(faces)]))
+    return rows
+
+
+def compare_with_document(path, example):
+    with open(path) as source:
+        text = source.read()
+    data = read_file(example)
+    failed = example_in(text) != data
+    if failed:
+        print("the document has other bytes than", example)
+    for row in describe_example(data):
+        print(row if row in text else row + "\n    is not in the document", flush=True)
+        failed += row not in text
+    return failed
+
+
 def compare_with_wmc(wmc, folder, files):
     os.makedirs(folder, exist_ok=True)
     failed = 0
@@ -109,6 +150,8 @@ def compare_with_wmc(wmc, folder, files):
 def main():
     if sys.argv[1] == "--index":
         return 1 if compare_with_index(sys.argv[2]) else 0
+    if sys.argv[1] == "--example":
+        return 1 if compare_with_document(*sys.argv[2:]) else 0
     return 1 if compare_with_wmc(sys.argv[1], sys.argv[2], sys.argv[3:]) else 0
 
 

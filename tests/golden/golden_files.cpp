@@ -126,6 +126,7 @@ std::vector<Golden> goodOnes()
 	const auto add = [&](const char* name, const Bytes& bytes) {
 		all.push_back({std::string("good_") + name + ".wmc", bytes});
 	};
+	add("example", fileOf(makeGrid(3, 3), 4, 0, Wgc::Off)); // of docs/wmc_format.md
 	add("triangle_1_bit", fileOf(makeTriangle(), 1, kLiftingOff, Wgc::Off));
 	add("tetrahedron_step", fileOf(makeTetrahedron(), 12, 0, Wgc::Off, 0.1));
 	add("sphere_lazy", fileOf(makeBumpySphere(160, 1), 12, kLiftingOff, Wgc::Off));

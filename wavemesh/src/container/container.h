@@ -13,7 +13,7 @@
 namespace wavemesh {
 
 constexpr std::uint8_t kVersionMajor = 0;
-constexpr std::uint8_t kVersionMinor = 4;
+constexpr std::uint8_t kVersionMinor = 5;
 
 /// Chunk types are letters; lower case means that a decoder may skip the chunk.
 constexpr std::uint8_t kHeadChunk  = 'H';

@@ -9,12 +9,80 @@
 namespace wavemesh {
 namespace {
 
+/// Normals as precise as clampedCross() allows.
+std::vector<UnitVector>
+normalsAt(const CornerTable& table, std::vector<LatticePoint> positions, int latticeBits)
+{
+	for (LatticePoint& p : positions)
+		for (std::int32_t& x : p)
+			x >>= std::max(0, latticeBits - 16);
+	return vertexNormals(table, positions);
+}
+
+/// The vertices of a level, each somewhere in its cell.
+class InCells
+{
+public:
+	InCells(const std::vector<LatticePoint>& cells, int shift, const Glue& glue) :
+	        cells_(cells), shift_(shift), glue_(glue)
+	{
+		positions_.reserve(cells.size());
+		for (const LatticePoint& cell : cells)
+			positions_.push_back(middleOfCell(cell, shift));
+	}
+
+	const std::vector<LatticePoint>& positions() const { return positions_; }
+
+	/// Moves a vertex along its normal; one that lies at the same place as others stays.
+	/// @param way       in 1/16 of a lattice unit, times 2^fraction / 16384
+	void move(std::size_t v, std::int64_t way, int fraction, const UnitVector& n)
+	{
+		if (glue_.isShared(Index(v)))
+			return;
+		const LatticePoint middle = middleOfCell(cells_[v], shift_);
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::int64_t off = positions_[v][k] - middle[k] + ((way * n[k]) >> fraction);
+			positions_[v][k] =
+			    static_cast<std::int32_t>(middle[k] + std::clamp(off, -reach(), reach()));
+		}
+	}
+
+	/// From the middle of a cell to its outermost parts.
+	std::int64_t reach() const { return 8 * ((std::int64_t(1) << shift_) - 1); }
+	int shift() const { return shift_; }
+
+private:
+	const std::vector<LatticePoint>& cells_;
+	int shift_;
+	const Glue& glue_;
+	std::vector<LatticePoint> positions_; ///< 1/16 of a lattice unit
+};
+
+/// Moves all vertices along their normals towards where the surface is smoothest: that many
+/// quarters of the way where it is short against the cell, hardly at all where it is long, since
+/// then it is the shape that bends.
+void smooth(InCells& level, const CornerTable& table, int latticeBits, int quarters)
+{
+	const std::vector<UnitVector> normals = normalsAt(table, level.positions(), latticeBits);
+	const std::vector<LatticePoint> second =
+	    laplacians(table, laplacians(table, level.positions()));
+	const int scale           = std::max(0, level.shift() - 8); // products stay below 2^63
+	const std::int64_t reach  = level.reach() >> scale;
+	const std::int64_t longer = 3 * reach * reach;
+	for (std::size_t v = 0; v < second.size(); ++v) {
+		const Vector bend {
+		    -std::int64_t(second[v][0]), -std::int64_t(second[v][1]), -std::int64_t(second[v][2])};
+		const std::int64_t way = along(bend, normals[v]) >> scale;
+		level.move(
+		    v, quarters * (longer * way / (longer + way * way)) * (1 << scale), 16, normals[v]);
+	}
+}
+
 class Bulge
 {
 public:
 	Bulge(const CornerTable& table, const std::vector<LatticePoint>& positions, int latticeBits) :
-	        table_(table), positions_(positions),
-	        normals_(vertexNormals(table, rounded(positions, latticeBits)))
+	        table_(table), positions_(positions), normals_(normalsAt(table, positions, latticeBits))
 	{
 	}
 
@@ -88,15 +156,6 @@ public:
 	const UnitVector& normal(std::size_t v) const { return normals_[v]; }
 
 private:
-	/// As precise as clampedCross() allows.
-	static std::vector<LatticePoint> rounded(std::vector<LatticePoint> positions, int latticeBits)
-	{
-		for (LatticePoint& p : positions)
-			for (std::int32_t& x : p)
-				x >>= std::max(0, latticeBits - 16);
-		return positions;
-	}
-
 	const CornerTable& table_;
 	const std::vector<LatticePoint>& positions_;
 	const std::vector<UnitVector> normals_;
@@ -112,28 +171,21 @@ std::vector<LatticePoint> shownPositions(
     int latticeBits,
     const Glue& glue)
 {
-	std::vector<LatticePoint> shown = likelyPositions(table, cells, shift, glue);
-	if (parents.empty())
-		return shown;
-	const Bulge bulge(table, shown, latticeBits);
+	InCells shown(cells, shift, glue);
+	if (parents.empty()) {
+		smooth(shown, table, latticeBits, 3);
+		smooth(shown, table, latticeBits, 3);
+		return shown.positions();
+	}
+	smooth(shown, table, latticeBits, 2);
+	const Bulge bulge(table, shown.positions(), latticeBits);
 	const std::int64_t trust = bulge.trust(parents, std::max(0, latticeBits - 12));
 	if (trust == 0)
-		return shown;
+		return shown.positions();
 	const std::vector<std::int64_t> heights = bulge.heights();
-	if (heights.empty())
-		return shown;
-	const std::int64_t reach = 8 * ((std::int64_t(1) << shift) - 1);
-	for (std::size_t v = 0; v < shown.size(); ++v) {
-		if (glue.isShared(Index(v)))
-			continue;
-		const LatticePoint middle = middleOfCell(cells[v], shift);
-		for (std::size_t k = 0; k < 3; ++k) {
-			const std::int64_t further = (trust * heights[v] * bulge.normal(v)[k]) >> 22;
-			shown[v][k]                = static_cast<std::int32_t>(
-                middle[k] + std::clamp(shown[v][k] + further - middle[k], -reach, reach));
-		}
-	}
-	return shown;
+	for (std::size_t v = 0; v < heights.size(); ++v)
+		shown.move(v, trust * heights[v], 22, bulge.normal(v));
+	return shown.positions();
 }
 
 } // namespace wavemesh
