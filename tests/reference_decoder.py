@@ -1535,13 +1535,16 @@ def shown(mesh, cells, s, parents, bits, glue):
         bend = around(mesh, around(mesh, L))                # of the laplacian; B is its negative
         e = max(0, s - 8)
         R = r >> e
+        w = [along(tuple(-x for x in bend[v]), n[v]) >> e for v in range(mesh.vertices)]
+        a = sum(abs(x) < R for x in w)
+        Q = min(16 * a // (mesh.vertices - a + 1), 44)
+        S = max(1, (5 * Q ** 3 * R * R) >> 12)
         result = []
         for v in range(mesh.vertices):
             if glue and glue.shared(v):
                 result.append(middle[v])
                 continue
-            w = along(tuple(-x for x in bend[v]), n[v]) >> e
-            W = (g * trunc_div(3 * R * R * w, 3 * R * R + w * w)) << e
+            W = (g * trunc_div(S * w[v], S + w[v] * w[v])) << e
             result.append(tuple(m + clamp(L[v][k] + ((W * n[v][k]) >> 16) - m, -r, r)
                                 for k, m in enumerate(middle[v])))
         return result

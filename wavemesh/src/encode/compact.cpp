@@ -2,6 +2,7 @@
 #include "encode/compact.h"
 
 #include "level_work.h"
+#include "predict/shown_positions.h"
 #include "syntax/base_syntax.h"
 #include "syntax/connectivity_syntax.h"
 #include "syntax/position_syntax.h"
@@ -37,19 +38,17 @@ std::vector<std::uint64_t> missingDetails(const Levels& levels, const std::vecto
 	return sums;
 }
 
-/// Of the vertices of a level, where a decoder that stops there puts them. Lattice units.
-std::uint64_t squaredErrors(
-    const Levels& levels, std::size_t split, int shift, const std::vector<LatticePoint>& cells)
+/// Of vertices from where a level has them. Lattice units.
+/// @param shown  in 1/16 of a lattice unit
+std::uint64_t
+squaredErrors(const std::vector<LatticePoint>& truth, const std::vector<LatticePoint>& shown)
 {
-	if (shift == 0)
-		return 0;
-	const auto likely = likelyPositions(levels.table(split), cells, shift, levels.glue);
 	std::uint64_t sum = 0;
-	for (std::size_t v = 0; v < cells.size(); ++v) {
-		LatticePoint truth = levels.positions[v];
-		for (std::int32_t& x : truth)
+	for (std::size_t v = 0; v < shown.size(); ++v) {
+		LatticePoint p = truth[v];
+		for (std::int32_t& x : p)
 			x *= 16;
-		sum = saturatingAdd(sum, squaredDistance(likely[v], truth));
+		sum = saturatingAdd(sum, squaredDistance(shown[v], p));
 	}
 	return sum / 256;
 }
@@ -101,15 +100,22 @@ bool writeCompact(
 	int shift                      = schedule.baseShift;
 	std::vector<LatticePoint> cells;
 	cells.reserve(truth.size());
+	const auto errors = [&]() -> std::uint64_t {
+		if (shift == 0)
+			return 0;
+		// Of coarser levels the missing vertices count far more than where their own are shown.
+		const bool hasAll = cells.size() == truth.size();
+		return squaredErrors(
+		    truth, hasAll ? shownPositions(levels.table(split), {}, cells, shift, bits, levels.glue)
+		                  : middlesOfCells(cells, shift));
+	};
 	const auto endLevel = [&](LevelKind kind, std::size_t step) {
 		LevelRow row;
 		row.kind      = kind;
 		row.vertices  = std::uint32_t(cells.size());
 		row.faces     = std::uint32_t(levels.table(split).faceCount());
 		row.shift     = shift;
-		row.errorCode = errorCode(
-		    saturatingAdd(missing[split], squaredErrors(levels, split, shift, cells)),
-		    truth.size());
+		row.errorCode = errorCode(saturatingAdd(missing[split], errors()), truth.size());
 		writer.endLevel(row, step == schedule.steps.size());
 	};
 

@@ -24,11 +24,8 @@ class InCells
 {
 public:
 	InCells(const std::vector<LatticePoint>& cells, int shift, const Glue& glue) :
-	        cells_(cells), shift_(shift), glue_(glue)
+	        cells_(cells), shift_(shift), glue_(glue), positions_(middlesOfCells(cells, shift))
 	{
-		positions_.reserve(cells.size());
-		for (const LatticePoint& cell : cells)
-			positions_.push_back(middleOfCell(cell, shift));
 	}
 
 	const std::vector<LatticePoint>& positions() const { return positions_; }
@@ -59,22 +56,30 @@ private:
 };
 
 /// Moves all vertices along their normals towards where the surface is smoothest: that many
-/// quarters of the way where it is short against the cell, hardly at all where it is long, since
-/// then it is the shape that bends.
+/// quarters of the way where it is short, hardly at all where it is long, since then it is the
+/// shape that bends. What is short: the more vertices have a way within their cells, the more.
 void smooth(InCells& level, const CornerTable& table, int latticeBits, int quarters)
 {
 	const std::vector<UnitVector> normals = normalsAt(table, level.positions(), latticeBits);
 	const std::vector<LatticePoint> second =
 	    laplacians(table, laplacians(table, level.positions()));
-	const int scale           = std::max(0, level.shift() - 8); // products stay below 2^63
-	const std::int64_t reach  = level.reach() >> scale;
-	const std::int64_t longer = 3 * reach * reach;
-	for (std::size_t v = 0; v < second.size(); ++v) {
+	const int scale          = std::max(0, level.shift() - 8); // products stay below 2^63
+	const std::int64_t reach = level.reach() >> scale;
+	std::vector<std::int64_t> ways(second.size());
+	for (std::size_t v = 0; v < ways.size(); ++v) {
 		const Vector bend {
 		    -std::int64_t(second[v][0]), -std::int64_t(second[v][1]), -std::int64_t(second[v][2])};
-		const std::int64_t way = along(bend, normals[v]) >> scale;
-		level.move(
-		    v, quarters * (longer * way / (longer + way * way)) * (1 << scale), 16, normals[v]);
+		ways[v] = along(bend, normals[v]) >> scale;
+	}
+	const std::int64_t within = std::count_if(
+	    ways.begin(), ways.end(), [&](std::int64_t way) { return std::abs(way) < reach; });
+	const std::int64_t beyond = std::int64_t(ways.size()) - within;
+	const std::int64_t odds   = std::min<std::int64_t>(44, 16 * within / (beyond + 1));
+	const std::int64_t square =
+	    std::max<std::int64_t>(1, (5 * odds * odds * odds * reach * reach) >> 12);
+	for (std::size_t v = 0; v < ways.size(); ++v) {
+		const std::int64_t way = square * ways[v] / (square + ways[v] * ways[v]);
+		level.move(v, quarters * way * (1 << scale), 16, normals[v]);
 	}
 }
 

@@ -123,12 +123,19 @@ laplacians(const CornerTable& table, const std::vector<LatticePoint>& positions)
 	return ringMeansLessOwn(table, positions);
 }
 
+std::vector<LatticePoint> middlesOfCells(const std::vector<LatticePoint>& cells, int bits)
+{
+	std::vector<LatticePoint> out;
+	out.reserve(cells.size());
+	for (const LatticePoint& cell : cells)
+		out.push_back(middleOfCell(cell, bits));
+	return out;
+}
+
 std::vector<LatticePoint> likelyPositions(
     const CornerTable& table, const std::vector<LatticePoint>& cells, int bits, const Glue& glue)
 {
-	std::vector<LatticePoint> out(cells.size());
-	for (std::size_t v = 0; v < out.size(); ++v)
-		out[v] = middleOfCell(cells[v], bits);
+	std::vector<LatticePoint> out = middlesOfCells(cells, bits);
 	if (bits == 0)
 		return out;
 	const std::vector<UnitVector> normals  = vertexNormals(table, out);

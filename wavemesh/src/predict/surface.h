@@ -57,6 +57,9 @@ inline LatticePoint middleOfCell(const LatticePoint& cell, int bits)
 	return m;
 }
 
+/// Middles of all cells. #V by 3.
+std::vector<LatticePoint> middlesOfCells(const std::vector<LatticePoint>& cells, int bits);
+
 /// Where in its cell each vertex is likely to be: moved from the middle along the normal, half the
 /// way to where the surface is smoothest, but never out of the cell.
 ///
