@@ -2,6 +2,7 @@
 // Every changed byte and bit of small files: an error, never a wrong finest mesh, never a crash.
 #include "codec_check.h"
 #include "rng.h"
+#include "sanitized.h"
 #include "wmc_files.h"
 
 #include <gtest/gtest.h>
@@ -10,12 +11,6 @@
 
 namespace wavemesh::test {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 bool isRefusal(StatusCode code)
 {
