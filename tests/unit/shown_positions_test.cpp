@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where levels below the finest are shown: nearer to the surface than a mesh through its points.
+// Where levels are shown: nearer to the surface than the middles of cells, and than a mesh through
+// points of it.
 #include "predict/shown_positions.h"
 #include "stage_meshes.h"
 
@@ -14,13 +15,11 @@ struct Level
 {
 	CornerTable table;
 	Parents parents;
-	std::vector<LatticePoint> cells;
+	std::vector<LatticePoint> truth, cells;
 	int shift, bits;
 
-	std::vector<LatticePoint> likely(const Glue& glue = {}) const
-	{
-		return likelyPositions(table, cells, shift, glue);
-	}
+	std::vector<LatticePoint> middles() const { return middlesOfCells(cells, shift); }
+	std::vector<LatticePoint> likely() const { return likelyPositions(table, cells, shift, {}); }
 	std::vector<LatticePoint> shown(const Glue& glue = {}) const
 	{
 		return shownPositions(table, parents, cells, shift, bits, glue);
@@ -37,10 +36,12 @@ Level levelOf(const MeshData& mesh, std::size_t below, int bits = 12, int precis
 	    levels.replay.levels[i].parent,
 	    parentsOf(last.parent, last.refinement),
 	    {},
+	    {},
 	    bits - precision,
 	    bits};
 	for (std::size_t v = 0; v < level.table.vertexCount; ++v) {
 		LatticePoint p = levels.positions[v];
+		level.truth.push_back(p);
 		for (std::int32_t& x : p)
 			x >>= level.shift;
 		level.cells.push_back(p);
@@ -73,6 +74,16 @@ double offTheSphere(const CornerTable& table, const std::vector<LatticePoint>& p
 	return sum / double(count);
 }
 
+/// Sum of squared distances of the vertices from where they are in truth.
+double offTheTruth(const Level& level, const std::vector<LatticePoint>& positions)
+{
+	double sum = 0;
+	for (std::size_t v = 0; v < positions.size(); ++v)
+		for (std::size_t k = 0; k < 3; ++k)
+			sum += std::pow(positions[v][k] - 16.0 * level.truth[v][k], 2);
+	return sum;
+}
+
 TEST(ShownPositions, OfASphereAreNearerToItThanLikelyOnes)
 {
 	for (const int bits : {10, 12, 16, 20})
@@ -85,32 +96,55 @@ TEST(ShownPositions, OfASphereAreNearerToItThanLikelyOnes)
 		}
 }
 
-TEST(ShownPositions, OfPlanesAndEdgesAreTheLikelyOnes)
+TEST(ShownPositions, OfALevelWithAllVerticesAreSmootherThanItsCells)
 {
-	for (const MeshData& mesh : {makeFlatGrid(30, 30), makeHoledPlate(2, 12)}) {
-		const Level level = levelOf(mesh, 1, 12, 11);
-		EXPECT_EQ(level.shown(), level.likely());
+	for (const int bits : {10, 12, 16, 20, 24}) {
+		Level level = levelOf(makeIcosphere(32), 1, bits, 6);
+		level.parents.clear();
+		const double middles = offTheSphere(level.table, level.middles(), bits);
+		EXPECT_LT(offTheSphere(level.table, level.shown(), bits), 0.3 * middles) << bits;
+		EXPECT_LT(
+		    offTheSphere(level.table, level.shown(), bits),
+		    0.7 * offTheSphere(level.table, level.likely(), bits))
+		    << bits;
 	}
 }
 
-TEST(ShownPositions, OfGluedVerticesAndLevelsWithoutASplitAreTheLikelyOnes)
+TEST(ShownPositions, OfPlanesAndEdgesAreNotFartherFromTheTruthThanTheirCells)
+{
+	for (const MeshData& mesh : {makeFlatGrid(30, 30), makeHoledPlate(2, 12)})
+		for (const int precision : {8, 11})
+			for (const bool all : {false, true}) {
+				Level level = levelOf(mesh, 1, 12, precision);
+				if (all)
+					level.parents.clear();
+				EXPECT_LE(
+				    offTheTruth(level, level.shown()), 1.001 * offTheTruth(level, level.middles()))
+				    << precision << ' ' << all;
+			}
+}
+
+TEST(ShownPositions, OfGluedVerticesAreTheMiddlesOfTheirCells)
 {
 	Level level = levelOf(makeIcosphere(16), 1);
 	std::vector<Index> group(level.table.vertexCount, kNone);
 	for (const std::size_t v : {3u, 10u, 11u})
 		group[v] = 0;
-	const Glue glue  = glueOf(group);
-	const auto shown = level.shown(glue), likely = level.likely(glue);
-	std::size_t moved = 0;
-	for (std::size_t v = 0; v < shown.size(); ++v) {
-		if (group[v] == 0) {
-			EXPECT_EQ(shown[v], middleOfCell(level.cells[v], level.shift)) << v;
+	const Glue glue    = glueOf(group);
+	const auto middles = level.middles();
+	for (const bool all : {false, true}) {
+		if (all)
+			level.parents.clear();
+		const auto shown  = level.shown(glue);
+		std::size_t moved = 0;
+		for (std::size_t v = 0; v < shown.size(); ++v) {
+			if (group[v] == 0) {
+				EXPECT_EQ(shown[v], middles[v]) << v;
+			}
+			moved += shown[v] != middles[v];
 		}
-		moved += shown[v] != likely[v];
+		EXPECT_GT(moved, shown.size() / 2);
 	}
-	EXPECT_GT(moved, shown.size() / 2);
-	level.parents.clear();
-	EXPECT_EQ(level.shown(), level.likely());
 }
 
 TEST(ShownPositions, AreInsideTheirCellsHoweverWild)
