@@ -28,8 +28,7 @@ const FilterCard kBrowse = {
     "in either direction.<br>"
     "A layer opened from a .wmc file has its levels at hand; those of another layer were made when "
     "this dialog opened. Colours and selections made on a level stay with that level; a layer "
-    "whose "
-    "shape was edited gets new levels, made from what it shows.",
+    "whose shape was edited gets new levels, made from what it shows.",
     FilterPlugin::Remeshing | FilterPlugin::Layer,
     // The preview is offered only to filters that change no counts. It would restore what is named
     // here; the levels themselves are restored by LayerLevels. The true mask goes out when applied.
@@ -47,18 +46,16 @@ const FilterCard kReport = {
         "Tells what each level costs and how close it is to the mesh: vertices, faces, bytes, bits "
         "per vertex, RMS and maximum surface distance; of the .wmc the layer came from, and of the "
         "paper's configurations side by side. The table appears in the log, and as a CSV file and "
-        "a "
-        "picture of the curves if files are named.<br>") +
+        "a picture of the curves if files are named.<br>") +
         kReference,
     FilterPlugin::Measure, MeshModel::MM_NONE};
 
 const FilterCard kColour = {
     "Wavemesh: Colour by Detail", "compute_scalar_by_wavemesh_detail_per_vertex",
     "Gives every vertex its wavelet coefficient, the detail that it adds to the next coarser "
-    "level, "
-    "as quality, and colours it by that: where the mesh is rough, where it is smooth, and which "
-    "vertices the coarse levels keep. The colour ramp leaves out a tenth of the vertices at either "
-    "end; MeshLab's quality mapper and histogram work on the quality. The mesh has to be an "
+    "level, as quality, and colours it by that: where the mesh is rough, where it is smooth, and "
+    "which vertices the coarse levels keep. The colour ramp leaves out a tenth of the vertices at "
+    "either end; MeshLab's quality mapper and histogram work on the quality. The mesh has to be an "
     "oriented manifold.",
     FilterPlugin::Quality | FilterPlugin::VertexColoring,
     MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR};

@@ -87,8 +87,7 @@ void addSliderParameters(RichParameterList& list, const LevelRange& range)
 	    levelCard(range, range.shown),
 	    "0 is the base mesh, the coarsest; the largest value is the finest level, which is the "
 	    "layer as it was. In scripts -1 is the finest, too. Tick <i>Preview</i> and drag. The "
-	    "error "
-	    "is the file's own estimate, in model units.<br>" +
+	    "error is the file's own estimate, in model units.<br>" +
 	        tableOf(range)));
 	list.addParam(RichEnum(
 	    "snap", int(Snap::Level), {"level", "bytes", "error"}, "Slider goes by",
@@ -102,8 +101,7 @@ void addSliderParameters(RichParameterList& list, const LevelRange& range)
 	list.addParam(RichFloat(
 	    "max_error", 0, "Error at most (model units, 0 = by the slider)",
 	    "If above 0, with the slider going by error: the coarsest level with at most this error, "
-	    "in "
-	    "place of the slider.",
+	    "in place of the slider.",
 	    true));
 }
 

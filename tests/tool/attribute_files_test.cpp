@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 namespace wavemesh::test {
 
@@ -256,8 +257,31 @@ TEST_F(AttributeFiles, PolygonsAreKeptAndVerified)
 	writeAll(path("a.obj"), obj);
 	ASSERT_EQ(runWmc({"encode", path("a.obj"), path("a.wmc")}).code, 0);
 	EXPECT_EQ(info()["attributes"][0]["kind"], "polygons");
-	const RunResult r = runWmc({"verify", path("a.obj"), path("a.wmc")});
-	EXPECT_EQ(r.code, 0) << r.err;
+	for (const char* name : {"b.obj", "b.off"}) {
+		const RunResult r = runWmc({"decode", path("a.wmc"), path(name)});
+		EXPECT_EQ(r.err, "") << "nothing is missing";
+	}
+	const auto lines = [&](const char* name, const char* begin) {
+		const FileBytes bytes = readAll(path(name));
+		std::istringstream file(std::string(bytes.begin(), bytes.end()));
+		int count = 0;
+		for (std::string line; std::getline(file, line);)
+			count += line.rfind(begin, 0) == 0;
+		return count;
+	};
+	EXPECT_EQ(lines("b.obj", "f "), 49);
+	EXPECT_EQ(lines("b.off", "64 49 "), 1);
+	for (const char* name : {"a.obj", "b.obj"}) {
+		const RunResult r = runWmc({"verify", path(name), path("a.wmc")});
+		EXPECT_EQ(r.code, 0) << name << r.err;
+	}
+	// Polygons of an OFF are cut into triangles in another way than those of an OBJ.
+	ASSERT_EQ(runWmc({"encode", path("b.off"), path("c.wmc")}).code, 0);
+	ASSERT_EQ(runWmc({"decode", path("c.wmc"), path("c.off")}).code, 0);
+	EXPECT_EQ(lines("c.off", "64 49 "), 1);
+	EXPECT_EQ(runWmc({"verify", path("c.off"), path("c.wmc")}).code, 0);
+	const RunResult r = runWmc({"decode", path("a.wmc"), path("b.ply")});
+	EXPECT_NE(r.err.find("polygons"), std::string::npos) << r.err;
 }
 
 TEST_F(AttributeFiles, ACutFileHasTheColoursOfItsLevel)

@@ -116,8 +116,7 @@ struct Bench
 		std::printf(
 		    "%s; without reading and writing files, best of %d\n"
 		    "v/s: vertices per second of processor time; peak: memory above that of the mesh or "
-		    "the "
-		    "file itself\n\n",
+		    "the file itself\n\n",
 		    nameOf(codec.toEncodeOptions()).c_str(), runs);
 		Table table(
 		    {"file", "vertices", "bytes", "bpv", "encode v/s", "decode v/s", "peak encode",

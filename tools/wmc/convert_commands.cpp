@@ -92,7 +92,7 @@ struct Decode
 			    std::to_string(decoded->level) + " of " + std::to_string(info.finestLevel()));
 		const std::vector<std::string> notHeld = saveMesh(decoded->mesh, out);
 		if (!notHeld.empty())
-			warn(out + ": this format cannot hold " + joined(notHeld));
+			warn(out + ": this format is written without " + joined(notHeld));
 		if (json) {
 			Json j = {{"file", in}};
 			j.update(toJson(info));
@@ -205,7 +205,7 @@ void addDecode(CLI::App& app, Command& chosen)
 	addJson(*command, c->json);
 	command->footer("A file that is cut off gives the mesh that its bytes still hold, and a "
 	                "warning. Another\n"
-	                "warning names the attributes that the format of OUT cannot hold.");
+	                "warning names the attributes that are not written in the format of OUT.");
 	command->callback([&chosen, c] { chosen = [c] { return c->run(); }; });
 }
 

@@ -30,7 +30,7 @@ bool isNamedAsMesh(const std::string& path);
 /// Writes a mesh whole or not at all, with the attributes that the format has; an OBJ with textures
 /// also gets a material library, .mtl. PLY (binary), OBJ and OFF keep every bit of the coordinates,
 /// STL is float. Throws Failure, UsageError.
-/// @return names of the attributes that the format cannot hold
+/// @return names of the attributes that were not written
 std::vector<std::string> saveMesh(const MeshData& mesh, const std::string& path);
 
 } // namespace wavemesh::tool

@@ -6,6 +6,7 @@
 #include "full_mesh.h"
 #include "mesh_files.h"
 #include "ply_properties.h"
+#include "polygons.h"
 
 #include <wavemesh/vcg_attributes.h>
 #include <wavemesh/vcg_wmc.h>
@@ -151,7 +152,8 @@ bool isTextured(const MeshData& mesh)
 	                                  find(mesh, AttributeOf::Vertex, AttributeKind::TexCoord, 3));
 }
 
-void writeObj(const MeshData& mesh, const std::string& path, OutputFile& out)
+/// @return whether all polygons are in it
+bool writeObj(const MeshData& mesh, const std::string& path, OutputFile& out)
 {
 	const Attribute* normals = find(mesh, AttributeOf::Vertex, AttributeKind::Normal, 3);
 	const Attribute* wedges  = find(mesh, AttributeOf::Corner, AttributeKind::TexCoord, 3);
@@ -176,39 +178,53 @@ void writeObj(const MeshData& mesh, const std::string& path, OutputFile& out)
 		text << "vt " << row[0] << " " << row[1] << "\n";
 	for (std::size_t v = 0; places && v < mesh.positions.size(); ++v)
 		text << "vt " << rowOf(*places, v)[0] << " " << rowOf(*places, v)[1] << "\n";
-	double texture = -1;
-	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-		const auto& t    = mesh.triangles[f];
-		const double now = !textured ? -1
-		                   : wedges  ? rowOf(*wedges, 3 * f)[2]
-		                             : rowOf(*places, t[0])[2];
+	const auto textureOf = [&](std::uint32_t c) {
+		return !textured ? -1
+		       : wedges  ? rowOf(*wedges, c)[2]
+		                 : rowOf(*places, mesh.triangles[c / 3][0])[2];
+	};
+	const Polygons faces = polygonsOf(mesh, [&](std::uint32_t c, std::uint32_t d) {
+		return textureOf(c) == textureOf(d) && (!wedges || corners.index[c] == corners.index[d]);
+	});
+	double texture       = -1;
+	for (std::size_t f = 0; f < faces.count(); ++f) {
+		const double now = textureOf(faces.corners[faces.begin[f]]);
 		if (now != texture)
 			text << "usemtl texture" << vcg_detail::narrowed<std::uint16_t>(now) << "\n";
 		texture = now;
 		text << "f";
-		for (std::size_t k = 0; k < 3; ++k) {
-			text << " " << t[k] + 1;
+		for (std::size_t i = faces.begin[f]; i < faces.begin[f + 1]; ++i) {
+			const std::uint32_t c = faces.corners[i], v = mesh.triangles[c / 3][c % 3];
+			text << " " << v + 1;
 			if (wedges)
-				text << "/" << corners.index[3 * f + k] + 1;
+				text << "/" << corners.index[c] + 1;
 			else if (places)
-				text << "/" << t[k] + 1;
+				text << "/" << v + 1;
 			if (normals)
-				text << (wedges || places ? "/" : "//") << t[k] + 1;
+				text << (wedges || places ? "/" : "//") << v + 1;
 		}
 		text << "\n";
 	}
 	text.flush();
+	return faces.complete;
 }
 
-void writeOff(const MeshData& mesh, OutputFile& out)
+/// @return whether all polygons are in it
+bool writeOff(const MeshData& mesh, OutputFile& out)
 {
 	const Attribute* ofVertices = find(mesh, AttributeOf::Vertex, AttributeKind::Colour, 4);
 	const Attribute* normals    = find(mesh, AttributeOf::Vertex, AttributeKind::Normal, 3);
 	const Colours colours(ofVertices);
-	const Colours ofFaces(find(mesh, AttributeOf::Face, AttributeKind::Colour, 4));
+	const Attribute* ofFaces = find(mesh, AttributeOf::Face, AttributeKind::Colour, 4);
+	const Colours faceColours(ofFaces);
+	const Polygons faces = polygonsOf(mesh, [&](std::uint32_t c, std::uint32_t d) {
+		return !ofFaces ||
+		       std::equal(
+		           rowOf(*ofFaces, c / 3), rowOf(*ofFaces, c / 3) + 4, rowOf(*ofFaces, d / 3));
+	});
 	TextMesh text(out);
 	text << (ofVertices ? "C" : "") << (normals ? "N" : "") << "OFF\n"
-	     << mesh.positions.size() << " " << mesh.triangles.size() << " 0\n";
+	     << mesh.positions.size() << " " << faces.count() << " 0\n";
 	for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
 		const auto& p = mesh.positions[v];
 		text << p[0] << " " << p[1] << " " << p[2];
@@ -217,13 +233,15 @@ void writeOff(const MeshData& mesh, OutputFile& out)
 		colours.write(text, v, false);
 		text << "\n";
 	}
-	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-		const auto& t = mesh.triangles[f];
-		text << "3 " << t[0] << " " << t[1] << " " << t[2];
-		ofFaces.write(text, f, false);
+	for (std::size_t f = 0; f < faces.count(); ++f) {
+		text << faces.begin[f + 1] - faces.begin[f];
+		for (std::size_t i = faces.begin[f]; i < faces.begin[f + 1]; ++i)
+			text << " " << mesh.triangles[faces.corners[i] / 3][faces.corners[i] % 3];
+		faceColours.write(text, faces.corners[faces.begin[f]] / 3, false);
 		text << "\n";
 	}
 	text.flush();
+	return faces.complete;
 }
 
 /// Bytes of a binary PLY with triangles, from its own head. 0 if there is none.
@@ -363,16 +381,23 @@ bool holds(Format format, const MeshData& mesh, const Attribute& a)
 		return format == Format::Ply;
 	case AttributeKind::Custom:
 		return format == Format::Ply && isOwnProperty(mesh, a);
+	case AttributeKind::FauxEdges:
+		return format == Format::Obj || format == Format::Off;
 	default:
 		return false;
 	}
 }
 
-std::vector<std::string> whatIsNotHeld(const MeshData& mesh, Format format)
+/// @param polygonsWhole  no polygon is in the file as triangles
+std::vector<std::string> whatIsNotHeld(const MeshData& mesh, Format format, bool polygonsWhole)
 {
 	std::vector<std::string> names;
 	for (const Attribute& a : mesh.attributes)
-		if (!holds(format, mesh, a))
+		if (a.kind == AttributeKind::FauxEdges && holds(format, mesh, a)) {
+			if (!polygonsWhole)
+				names.push_back("some " + nameOf(a.of, a.kind, a.name));
+		}
+		else if (!holds(format, mesh, a))
 			names.push_back(nameOf(a.of, a.kind, a.name));
 	for (const std::string& name : mesh.textures) // of lines of text
 		if (visible(name) != name && isTextured(mesh) &&
@@ -399,16 +424,17 @@ std::vector<std::string> saveMesh(const MeshData& mesh, const std::string& path)
 	checkMeshFormat(path);
 	const Format format = formatOf(path);
 	OutputFile out(path);
+	bool polygonsWhole = true;
 	if (format == Format::Obj)
-		writeObj(mesh, path, out);
+		polygonsWhole = writeObj(mesh, path, out);
 	else if (format == Format::Off)
-		writeOff(mesh, out);
+		polygonsWhole = writeOff(mesh, out);
 	else
 		writeBinary(mesh, path, out, format == Format::Stl);
 	out.commit();
 	if (format == Format::Obj && isTextured(mesh))
 		writeMaterials(mesh, path);
-	return whatIsNotHeld(mesh, format);
+	return whatIsNotHeld(mesh, format, polygonsWhole);
 }
 
 } // namespace wavemesh::tool
