@@ -16,8 +16,8 @@ const FilterCard kSimplify = {
     QString(
         "Replaces the mesh by a coarser level of its own hierarchy, made by inverse irregular "
         "subdivision: over the whole mesh, groups of two, three or four faces are merged into one. "
-        "The target is reached by the nearest level, not by an exact count. If that is the finest "
-        "level, the mesh stays as it is.<br>") +
+        "The result is the finest level within the target, not an exact count. If that is the "
+        "finest level, the mesh stays as it is.<br>") +
         kReference,
     FilterPlugin::Remeshing, MeshModel::MM_GEOMETRY_AND_TOPOLOGY_CHANGE};
 
@@ -54,9 +54,10 @@ const FilterCard kColour = {
     "Wavemesh: Colour by Detail", "compute_scalar_by_wavemesh_detail_per_vertex",
     "Gives every vertex its wavelet coefficient, the detail that it adds to the next coarser "
     "level, as quality, and colours it by that: where the mesh is rough, where it is smooth, and "
-    "which vertices the coarse levels keep. The colour ramp leaves out a tenth of the vertices at "
-    "either end; MeshLab's quality mapper and histogram work on the quality. The mesh has to be an "
-    "oriented manifold.",
+    "which vertices the coarse levels keep. The colour ramp of lengths leaves out a tenth of the "
+    "vertices at either end; MeshLab's quality mapper and histogram work on the quality. The mesh "
+    "has to be "
+    "an oriented manifold.",
     FilterPlugin::Quality | FilterPlugin::VertexColoring,
     MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR};
 

@@ -189,7 +189,7 @@ void IOWavemeshPlugin::open(
 		        .arg(finest)
 		        .arg(byteCount(bytes->size()))
 		        .toStdString());
-		if (bytes->size() < decoder->info().bytes && request.maxBytes >= bytes->size())
+		if (bytes->size() < decoder->info().bytes && bytes->size() < request.maxBytes)
 			reportWarning(QString("%1 is truncated: %2 of its %3 levels are whole.")
 			                  .arg(fileName)
 			                  .arg(wholeLevels(decoder->info(), bytes->size()))

@@ -10,7 +10,7 @@ void addPromiseParameters(RichParameterList& list)
 	list.addParam(RichBool(
 	    "exact", false, "Exact coordinates",
 	    "Keep every coordinate bit for bit, not only its place on the lattice, and every number of "
-	    "texture coordinates, quality and the like. Such a file is two to four times as large."));
+	    "texture coordinates, quality and the like. Such a file is two to six times as large."));
 	list.addParam(RichBool(
 	    "keep_order", false, "Keep the order",
 	    "Keep the order of vertices and faces, and the first corner of each face. The file grows "
@@ -47,15 +47,15 @@ void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults,
 	    "effort", defaults.effort, "Effort (1 to 3)",
 	    "1 is the fastest to save and to open, for a larger file: it always writes the classic "
 	    "mode. 2 chooses one way by a look at the mesh (of up to twelve if the mesh is small), and "
-	    "3 tries many, keeps the best file, and takes five to twenty times as long to save.",
+	    "3 tries many, keeps the best file, and takes four to twenty times as long to save.",
 	    hideMethod));
 	list.addParam(RichEnum(
 	    "wgc", int(defaults.wgc), {"off", "on", "auto"}, "Geometrical criterion (WGC)",
 	    "Wavelet geometrical criterion: keep the vertices of sharp edges and corners in the coarse "
 	    "levels. <b>off</b>: it has no say. <b>on</b>: better coarse levels of mechanical parts. "
 	    "<b>auto</b>: both are tried and the smaller file is kept if <i>Optimize for</i> is size, "
-	    "in classic mode or with effort 3, and below 4096 vertices; else off. With levels it does "
-	    "not matter.",
+	    "in classic mode or with effort 3, and below 4096 vertices with effort 1 or 3; else off. "
+	    "With levels it does not matter.",
 	    hideMethod));
 	list.addParam(RichEnum(
 	    "lifting", defaults.lifting - kLiftingOff, {"off", "0-disc", "1-disc", "2-disc"},

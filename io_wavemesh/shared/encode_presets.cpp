@@ -13,13 +13,13 @@ QString presetHelp()
 	return "<b>as set below</b>: the options below count. The others set all of them but the "
 	       "precision, the order and the bits of attributes:<br>"
 	       "<b>smallest</b>: the fewest bytes for the whole mesh; tries many ways, which takes "
-	       "ten to twenty times as long as balanced.<br>"
-	       "<b>balanced</b>: coarse levels close to the original, for up to 4 % more bytes than "
+	       "four to twenty times as long as balanced.<br>"
+	       "<b>balanced</b>: coarse levels close to the original, for up to 5 % more bytes than "
 	       "smallest.<br>"
 	       "<b>best coarse levels</b>: the closest coarse levels at any low rate, for up to "
 	       "40 % more bytes than smallest.<br>"
 	       "<b>exact</b>: balanced, and every coordinate and every number of attributes bit for "
-	       "bit: two to four times as large.";
+	       "bit: two to six times as large.";
 }
 
 EncodeOptions optionsOf(Preset preset, EncodeOptions options)

@@ -156,6 +156,23 @@ TEST_F(WmcTest, StlCornersAtOnePlaceBecomeOneVertex)
 	EXPECT_EQ(runWmc({"verify", path("a.stl"), path("a.wmc")}).code, 0);
 }
 
+TEST_F(WmcTest, StlFacetsWithoutAreaStay)
+{
+	MeshData mesh = makeTorus(12, 9);
+	mesh.triangles.push_back({3, 3, 7});
+	tool::saveMesh(mesh, path("a.stl"));
+	const RunResult r = runWmc({"encode", path("a.stl"), path("a.wmc"), "--json"});
+	ASSERT_EQ(r.code, 0) << r.err;
+	EXPECT_EQ(r.json()["faces"], mesh.triangles.size());
+}
+
+TEST_F(WmcTest, UnknownCommandsAreNamed)
+{
+	const RunResult r = runWmc({"frob"});
+	EXPECT_EQ(r.code, 2);
+	EXPECT_NE(r.err.find("'frob'"), std::string::npos) << r.err;
+}
+
 TEST_F(WmcTest, ReadsTextStlAndMixedCaseNames)
 {
 	std::string text    = "solid a\n";

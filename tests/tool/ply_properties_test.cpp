@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace wavemesh::test {
 
@@ -131,6 +132,132 @@ TEST_F(PlyProperties, ThatAreAPartOfAColourOrANormalAreKeptAsNumbersOfTheirOwn)
 	EXPECT_EQ(of["face "].values, (std::vector<double> {9, 8, 7, 6})); // a whole colour
 	// No colour is made up where other numbers are not wanted.
 	EXPECT_TRUE(tool::loadMesh(path("a.ply"), kVertexColour).attributes.empty());
+}
+
+/// Three vertices, one face, with properties of the vertices.
+std::string triangleWith(const std::string& properties, const std::string& values)
+{
+	std::istringstream lines(values);
+	std::string text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+	                   "property float y\nproperty float z\n" +
+	                   properties +
+	                   "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+	for (const char* place : {"0 0 0 ", "1 0 0 ", "0 1 0 "}) {
+		std::string line;
+		std::getline(lines, line);
+		text += place + line + "\n";
+	}
+	return text + "3 0 1 2\n";
+}
+
+TEST_F(PlyProperties, RadiusAndConfidenceAreRightInWhateverTheyAreWritten)
+{
+	for (const char* type : {"float", "double"})
+		for (const std::string name : {"radius", "confidence", "quality"}) {
+			SCOPED_TRACE(type + (" " + name));
+			write(
+			    "a.ply", triangleWith("property " + (type + (" " + name)) + "\n", "0.5\n0.25\n1"));
+			const MeshData back = throughWmc("a.ply", {"--exact", "--keep-order"});
+			ASSERT_EQ(back.attributes.size(), 1u);
+			EXPECT_EQ(back.attributes[0].values, (std::vector<double> {0.5, 0.25, 1}));
+			EXPECT_EQ(runWmc({"verify", path("b.ply"), path("a.wmc")}).code, 0);
+		}
+	write("a.ply", triangleWith("property float confidence\n", "0.5\n0.25\n1"));
+	EXPECT_EQ(throughWmc("a.ply").attributes[0].kind, AttributeKind::Quality);
+	write("a.ply", triangleWith("property double radius\n", "0.5\n0.25\n1"));
+	EXPECT_EQ(throughWmc("a.ply").attributes[0].kind, AttributeKind::Radius);
+	EXPECT_TRUE(throughWmc("a.ply", {"--attributes", "quality,custom"}).attributes.empty());
+}
+
+TEST_F(PlyProperties, FlagsAreNumbersAndDeleteNothing)
+{
+	write("a.ply", triangleWith("property int flags\n", "1\n64\n7"));
+	const MeshData back = throughWmc("a.ply", {"--keep-order"});
+	EXPECT_EQ(back.positions.size(), 3u);
+	ASSERT_EQ(back.triangles.size(), 1u);
+	EXPECT_EQ(byName(back)["vertex flags"].values, (std::vector<double> {1, 64, 7}));
+	std::string ofFace = kTwoTriangles;
+	ofFace.replace(ofFace.find("uchar part"), 10, "int flags");
+	write("a.ply", ofFace);
+	EXPECT_EQ(throughWmc("a.ply").triangles.size(), 2u);
+}
+
+TEST_F(PlyProperties, AnIntensityIsNoColour)
+{
+	write("a.ply", triangleWith("property float intensity\n", "0.5\n0.25\n1"));
+	const MeshData back = throughWmc("a.ply", {"--keep-order"});
+	ASSERT_EQ(back.attributes.size(), 1u);
+	EXPECT_EQ(byName(back)["vertex intensity"].values, (std::vector<double> {0.5, 0.25, 1}));
+}
+
+TEST_F(PlyProperties, TextureCoordinatesThatVcgDoesNotReadAreNamed)
+{
+	std::string text = triangleWith("", "\n\n\n");
+	text.replace(text.find("end_header"), 0, "property list int float texcoord\n");
+	text.replace(text.find("3 0 1 2\n"), 8, "3 0 1 2 6 0 0 1 0 0 1\n");
+	write("a.ply", text);
+	throughWmc("a.ply");
+	EXPECT_NE(whenEncoded_.find("texcoord"), std::string::npos) << whenEncoded_;
+}
+
+/// The file's numbers in an order of bytes and in types of its own.
+void appendBytes(FileBytes& out, const void* value, std::size_t n, bool big)
+{
+	const auto* bytes = static_cast<const std::uint8_t*>(value);
+	for (std::size_t i = 0; i < n; ++i)
+		out.push_back(bytes[big ? n - 1 - i : i]);
+}
+
+TEST_F(PlyProperties, AndMeshesOfEitherOrderOfBytesAndAllTypesAreReadRight)
+{
+	const double places[4][3]       = {{0, 0, 0}, {1.5, 0, 0}, {0, 2.25, 0}, {0, 0, -3e100}};
+	const std::uint32_t faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+	for (const bool big : {false, true})
+		for (const std::size_t countBytes : {1u, 2u, 4u})
+			for (const std::size_t indexBytes : {1u, 2u, 4u}) {
+				SCOPED_TRACE(std::to_string(countBytes) + " " + std::to_string(indexBytes));
+				const auto nameOf = [](std::size_t n) {
+					return n == 1 ? "uchar" : n == 2 ? "ushort" : "uint";
+				};
+				const std::string head =
+				    std::string("ply\nformat binary_") + (big ? "big" : "little") +
+				    "_endian 1.0\ncomment TextureFile my wood.png\nelement vertex 4\n"
+				    "property double x\nproperty double y\nproperty double z\n"
+				    "property double quality\nproperty float texture_u\n"
+				    "property float texture_v\nelement face 4\nproperty list " +
+				    nameOf(countBytes) + " " + nameOf(indexBytes) + " vertex_index\nend_header\n";
+				FileBytes file(head.begin(), head.end());
+				for (const auto& place : places) {
+					for (const double x : place)
+						appendBytes(file, &x, 8, big);
+					appendBytes(file, &place[1], 8, big);
+					for (const float t : {0.5f, 0.25f})
+						appendBytes(file, &t, 4, big);
+				}
+				for (const auto& face : faces) {
+					const std::uint32_t three = 3;
+					appendBytes(file, &three, countBytes, big);
+					for (const std::uint32_t& v : face)
+						appendBytes(file, &v, indexBytes, big);
+				}
+				writeAll(path("a.ply"), file);
+				const MeshData back = throughWmc("a.ply", {"--exact", "--keep-order"});
+				ASSERT_EQ(back.positions.size(), 4u);
+				ASSERT_EQ(back.triangles.size(), 4u);
+				for (std::size_t i = 0; i < 4; ++i)
+					for (std::size_t k = 0; k < 3; ++k) {
+						EXPECT_EQ(back.positions[i][k], places[i][k]);
+						EXPECT_EQ(back.triangles[i][k], faces[i][k]);
+					}
+				EXPECT_EQ(back.textures, (std::vector<std::string> {"my wood.png"}));
+				bool hasQuality = false;
+				for (const Attribute& a : back.attributes)
+					if (a.kind == AttributeKind::Quality) {
+						hasQuality = true;
+						EXPECT_EQ(a.values, (std::vector<double> {0, 0, 2.25, 0}));
+					}
+				EXPECT_TRUE(hasQuality);
+			}
 }
 
 TEST_F(PlyProperties, ThatCannotBeKeptAreNamed)

@@ -46,6 +46,15 @@ TEST_F(Verify, HoldsForEveryKindOfMesh)
 	}
 }
 
+TEST_F(Verify, HoldsForAFaceAndItsReverse)
+{
+	MeshData mesh = makeTriangle();
+	const auto t  = mesh.triangles[0];
+	mesh.triangles.push_back({t[0], t[2], t[1]});
+	encoded("a", mesh);
+	EXPECT_EQ(against(mesh).code, 0);
+}
+
 TEST_F(Verify, HoldsForEveryConfiguration)
 {
 	const MeshData mesh = punch(makeFlippedSphere(500, 3), 5, 1);

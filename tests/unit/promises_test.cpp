@@ -227,6 +227,19 @@ TEST(Exact, CoordinatesBeyondAllFloatsNeedItNot)
 		}
 }
 
+TEST(Exact, IsNeededWhereALatticeWouldReachBeyondAllDoubles)
+{
+	MeshData mesh = makeIcosphere(2);
+	for (auto& p : mesh.positions)
+		p = {1e308 * p[0], 1.7e308, p[2]};
+	const auto file = encode(mesh, {});
+	ASSERT_FALSE(file.ok());
+	EXPECT_EQ(file.status().code, StatusCode::InvalidArgument);
+	EncodeOptions o;
+	o.exact = true;
+	EXPECT_EQ(whatFails(mesh, o), "");
+}
+
 TEST(Exact, LinesAndPlanesComeBack)
 {
 	EncodeOptions o;

@@ -29,8 +29,9 @@ CLI::Validator aboveZero()
 	return {
 	    [](std::string& text) {
 		    double x = 0;
-		    return CLI::detail::lexical_cast(text, x) && x > 0 ? std::string()
-		                                                       : text + " is not above 0";
+		    return CLI::detail::lexical_cast(text, x) && x > 0 && std::isfinite(x)
+		               ? std::string()
+		               : text + " is not a number above 0";
 	    },
 	    "> 0"};
 }
@@ -89,8 +90,8 @@ void CodecOptions::addTo(CLI::App& command)
 	    .add_option(
 	        "--wgc", wgc,
 	        "Wavelet geometrical criterion, keeps sharp edges in coarse levels: off, on, or auto "
-	        "(both are tried for --optimize size with --mode classic or --effort 3, and on meshes "
-	        "below 4096 vertices; else off)")
+	        "(both are tried for --optimize size with --mode classic or --effort 3, and below 4096 "
+	        "vertices for balanced, and with --effort 1, too; else off)")
 	    ->check(CLI::IsMember({"off", "on", "auto"}))
 	    ->capture_default_str()
 	    ->group(group);
@@ -175,7 +176,7 @@ std::string nameOfLifting(int lifting)
 
 std::string nameOf(const EncodeOptions& o)
 {
-	return nameOf(o.mode) + ", " +
+	return nameOf(o.effort == 1 ? Mode::Classic : o.mode) + ", " +
 	       (o.step > 0 ? "step " + significant(o.step, 6) : std::to_string(o.bits) + " bits") +
 	       (o.mode == Mode::Classic ? ", lifting " + nameOfLifting(o.lifting)
 	                                : ", effort " + std::to_string(o.effort)) +

@@ -193,7 +193,9 @@ void addDecode(CLI::App& app, Command& chosen)
 	    ->add_option(
 	        "--max-bytes", c->maxBytes,
 	        "Decode as if the file ended after this many bytes (default: all of it)")
-	    ->check(CLI::NonNegativeNumber);
+	    ->check([](const std::string& text) {
+		    return text[0] == '-' ? text + " is less than 0" : std::string();
+	    });
 	addLimit(*command, "--max-vertices", c->limits.maxVertices, "more vertices");
 	addLimit(*command, "--max-faces", c->limits.maxFaces, "more faces");
 	addLimit(
@@ -203,9 +205,11 @@ void addDecode(CLI::App& app, Command& chosen)
 	    *command, "--max-level-share", c->limits.maxLevelShare,
 	    "more faces in all levels together, in multiples of the finest level's");
 	addJson(*command, c->json);
-	command->footer("A file that is cut off gives the mesh that its bytes still hold, and a "
-	                "warning. Another\n"
-	                "warning names the attributes that are not written in the format of OUT.");
+	command->footer(
+	    "A file that is cut off gives the mesh that its bytes still hold, and a "
+	    "warning. Another\n"
+	    "warning names what is not written in the format of OUT. To OUT.obj with textures belongs\n"
+	    "an OUT.mtl.");
 	command->callback([&chosen, c] { chosen = [c] { return c->run(); }; });
 }
 

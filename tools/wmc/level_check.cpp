@@ -17,12 +17,13 @@ namespace {
 
 using Clean = vcg::tri::Clean<VcgMesh>;
 
+/// A face and its reverse are a closed surface, and none of both.
 bool hasDegenerateOrDuplicateFaces(const MeshData& mesh)
 {
 	auto faces = mesh.triangles;
 	for (auto& t : faces) {
-		std::sort(t.begin(), t.end());
-		if (t[0] == t[1] || t[1] == t[2])
+		std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+		if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
 			return true;
 	}
 	std::sort(faces.begin(), faces.end());

@@ -21,7 +21,10 @@ int reportUsage(const CLI::App& app, const CLI::ParseError& error)
 	std::string line = error.what();
 	for (char& c : line)
 		c = c == '\n' ? ' ' : c;
-	printError(line + "; see wmc --help");
+	std::string command;
+	for (const CLI::App* sub : app.get_subcommands())
+		command = " " + sub->get_name();
+	printError(line + "; see wmc" + command + " --help");
 	return kUsage;
 }
 
@@ -52,6 +55,9 @@ int run(int argc, char** argv)
 	       "Print the manual page")
 	    ->trigger_on_parse() // before a command is asked for
 	    ->group("");         // for those who build packages
+	const auto isCommand = [&](CLI::App* command) { return command->get_name() == argv[1]; };
+	if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(isCommand).empty())
+		throw UsageError("'" + std::string(argv[1]) + "' is no command; see wmc --help");
 	try {
 		app.parse(argc, argv);
 	}

@@ -45,6 +45,8 @@ std::string commandEntry(const CLI::App& command)
 		if (option->get_name(false, true) != "-h,--help")
 			options += optionEntry(*option);
 	}
+	if (const std::string& footer = command.get_footer(); !footer.empty())
+		options += ".PP\n" + plain(footer) + "\n";
 	return entry + "\n" + plain(command.get_description()) + ".\n" + options;
 }
 
@@ -52,17 +54,18 @@ std::string commandEntry(const CLI::App& command)
 
 std::string manPage(const CLI::App& app, const std::string& version)
 {
-	std::string page =
-	    ".TH WMC 1 \"\" \"wmc " + version +
-	    "\" \"Wavemesh\"\n"
-	    ".SH NAME\nwmc \\- " +
-	    plain(app.get_description()) +
-	    "\n"
-	    ".SH SYNOPSIS\n.B wmc\n.I COMMAND\n[\\fIoptions\\fR] \\fIfiles\\fR\n"
-	    ".SH DESCRIPTION\n"
-	    "A .wmc file holds a triangle mesh as a coarse base mesh and a sequence of "
-	    "refinements that ends in the exact original. Every prefix of it is a mesh.\n"
-	    ".SH COMMANDS\n";
+	std::string page = ".TH WMC 1 \"\" \"wmc " + version +
+	                   "\" \"Wavemesh\"\n"
+	                   ".SH NAME\nwmc \\- " +
+	                   plain(app.get_description()) +
+	                   "\n"
+	                   ".SH SYNOPSIS\n.B wmc\n.I COMMAND\n[\\fIoptions\\fR] \\fIfiles\\fR\n"
+	                   ".SH DESCRIPTION\n"
+	                   "A .wmc file holds a triangle mesh as a coarse base mesh and a sequence of "
+	                   "refinements that ends in the original, exact on the lattice of its "
+	                   "coordinates or bit for bit. "
+	                   "Every prefix of it that holds the base mesh is a mesh.\n"
+	                   ".SH COMMANDS\n";
 	for (const CLI::App* command : app.get_subcommands({}))
 		page += commandEntry(*command);
 	page += ".SH NOTES\n" + plain(app.get_footer()) + "\n";

@@ -7,6 +7,7 @@
 #include "full_mesh.h"
 #include "mesh_guard.h"
 #include "ply_properties.h"
+#include "ply_reader.h"
 
 #include <wavemesh/vcg_attributes.h>
 #include <wavemesh/vcg_wmc.h>
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
 namespace wavemesh::tool {
 
@@ -96,13 +98,32 @@ void completePolygons(FullMesh& m)
 		}
 }
 
+/// A file's flags are those of another program: one of their bits would delete what has it.
+void forgetFlags(FullMesh& m, bool hasPolygons)
+{
+	for (FullVertex& v : m.vert)
+		v.Flags() = 0;
+	for (FullFace& f : m.face)
+		f.Flags() = hasPolygons ? f.Flags() & FullFace::FAUX012 : 0;
+	m.vn = static_cast<int>(m.vert.size());
+	m.fn = static_cast<int>(m.face.size());
+}
+
 /// What VCGLib's importer says: empty, or why the mesh is refused.
 /// @param mask  [out] what the file has, bits of vcg::tri::io::Mask
 std::string import(FullMesh& m, const std::string& path, Format format, int& mask)
 {
 	switch (format) {
 	case Format::Ply: {
-		const int error = io::ImporterPLY<FullMesh>::Open(m, path.c_str(), mask, showImport);
+		// Never committed: removed at the end.
+		std::optional<OutputFile> usual;
+		if (const Bytes bytes = ply::withUsualTypes(readFile(path)); !bytes.empty()) {
+			usual.emplace((std::filesystem::temp_directory_path() / "wmc.ply").string());
+			usual->write(bytes.data(), bytes.size());
+		}
+		const std::string& read = usual ? usual->path() : path;
+		const int error = io::ImporterPLY<FullMesh>::Open(m, read.c_str(), mask, showImport);
+		forgetFlags(m, mask & io::Mask::IOM_BITPOLYGONAL);
 		if (mask & io::Mask::IOM_BITPOLYGONAL)
 			completePolygons(m);
 		return error ? io::ImporterPLY<FullMesh>::ErrorMsg(error) : "";
@@ -126,7 +147,8 @@ std::string import(FullMesh& m, const std::string& path, Format format, int& mas
 		const int error = importStl(m, path);
 		if (error)
 			return io::ImporterSTL<FullMesh>::ErrorMsg(error);
-		vcg::tri::Clean<FullMesh>::RemoveDuplicateVertex(m);
+		constexpr bool kRemoveDegenerate = false;
+		vcg::tri::Clean<FullMesh>::RemoveDuplicateVertex(m, kRemoveDegenerate);
 		return "";
 	}
 	case Format::Unknown:
@@ -166,7 +188,7 @@ unsigned channelsIn(const FullMesh& m, int mask, Format format)
 	for (const auto& [bit, channel] : names)
 		if (mask & bit)
 			channels |= channel;
-	if (channels & kWedgeTexCoord) // the same ones, where an OBJ is said to have both
+	if (format == Format::Obj && (channels & kWedgeTexCoord)) // said to have both: the same ones
 		channels &= ~unsigned(kVertexTexCoord);
 	if (channels & (kVertexTexCoord | kWedgeTexCoord))
 		channels |= kTextures;
@@ -178,10 +200,15 @@ unsigned channelsIn(const FullMesh& m, int mask, Format format)
 }
 
 /// As many as there is room for; the others are not read.
-void addOwn(PlyProperties& own, MeshData& mesh)
+void addOwn(PlyProperties& own, unsigned channels, MeshData& mesh)
 {
 	constexpr std::size_t kMost = 64;
 	for (Attribute& a : own.attributes) {
+		const unsigned channel = a.kind == AttributeKind::Radius    ? kVertexRadius
+		                         : a.kind == AttributeKind::Quality ? kVertexQuality
+		                                                            : kCustom;
+		if (!(channels & channel))
+			continue;
 		const bool ofFace      = a.of == AttributeOf::Face;
 		const std::size_t rows = ofFace ? mesh.triangles.size() : mesh.positions.size();
 		if (mesh.attributes.size() < kMost && a.name.size() < 256 &&
@@ -209,19 +236,23 @@ Format formatOf(const std::string& path)
 
 MeshData loadMesh(const std::string& path, unsigned channels, std::vector<std::string>* notRead)
 {
-	const Format format = formatOf(path);
+	const Format format   = formatOf(path);
+	const unsigned wanted = channels;
 	MeshData mesh;
 	PlyProperties own;
+	std::vector<std::string> textures;
 	{
 		const Bytes file = readFile(path);
 		if (file.empty())
 			throw Failure(path + ": the file is empty");
 		if (const std::string wrong = whatIsWrong(file, format); !wrong.empty())
 			throw Failure(path + ": cannot be read as a mesh: " + wrong);
-		if (format == Format::Ply && (channels & kCustom))
+		if (format == Format::Ply && (channels & (kCustom | kVertexRadius | kVertexQuality)))
 			own = readPlyProperties(file);
 		if (format == Format::Ply)
-			channels &= ~channelsInPart(file);
+			channels &= ~channelsNotToTake(file);
+		if (ply::Head head; format == Format::Ply && ply::parseHead(file, head).empty())
+			textures = ply::textureNames(file, head);
 	}
 	FullMesh m;
 	ProgressLine line("reading " + path);
@@ -233,7 +264,11 @@ MeshData loadMesh(const std::string& path, unsigned channels, std::vector<std::s
 		throw Failure(path + ": cannot be read as a mesh: " + wrong);
 	mesh = toMeshData(m);
 	addAttributes(m, channels & channelsIn(m, mask, format), mesh);
-	addOwn(own, mesh);
+	addOwn(own, wanted, mesh);
+	if (textures.size() == mesh.textures.size()) // VCGLib takes out blanks
+		mesh.textures = textures;
+	if (std::find(mesh.textures.begin(), mesh.textures.end(), "") != mesh.textures.end())
+		own.notRead.push_back("the name of a texture");
 	if (notRead)
 		*notRead = own.notRead;
 	// A PLY or OFF may say that it has none; in another file they were not understood.

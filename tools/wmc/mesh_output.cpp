@@ -399,6 +399,14 @@ std::vector<std::string> whatIsNotHeld(const MeshData& mesh, Format format, bool
 		}
 		else if (!holds(format, mesh, a))
 			names.push_back(nameOf(a.of, a.kind, a.name));
+	if (format == Format::Stl) {
+		std::vector<bool> used(mesh.positions.size(), false);
+		for (const auto& t : mesh.triangles)
+			for (const std::uint32_t v : t)
+				used[v] = true;
+		if (std::find(used.begin(), used.end(), false) != used.end())
+			names.push_back("vertices without faces");
+	}
 	for (const std::string& name : mesh.textures) // of lines of text
 		if (visible(name) != name && isTextured(mesh) &&
 		    (format == Format::Ply || format == Format::Obj))

@@ -35,8 +35,7 @@ constexpr Known kOfVertex[] = {
     {"ny", kReal, kNormal},
     {"nz", kReal, kNormal},
     {"quality", kReal},
-    {"confidence", kFloat},
-    {"radius", kReal},
+    {"radius", kFloat}, // doubles where there is room for a float
     {"red", kByte, kColour},
     {"green", kByte, kColour},
     {"blue", kByte, kColour},
@@ -48,8 +47,7 @@ constexpr Known kOfVertex[] = {
     {"texture_u", kReal, kTexture},
     {"texture_v", kReal, kTexture},
     {"s", kFloat, kSt},
-    {"t", kFloat, kSt},
-    {"flags", kInt}};
+    {"t", kFloat, kSt}};
 
 constexpr Known kOfFace[] = {
     {"nx", kReal, kNormal},
@@ -60,7 +58,6 @@ constexpr Known kOfFace[] = {
     {"green", kByte, kColour},
     {"blue", kByte, kColour},
     {"alpha", kByte, kColour, true},
-    {"flags", kInt},
     {"texnumber", kInt, kWedges, true},
     {"texcoord", kFloat, kWedges},
     {"vertex_indices", kInt},
@@ -119,7 +116,8 @@ unsigned typeOf(const Property& p)
 const Known* whatItIs(AttributeOf of, const Property& p)
 {
 	const Known* known = find(of, p.name);
-	const bool fits    = known && (known->types & typeOf(p)) && p.isList == (p.name == "texcoord");
+	const bool fits = known && (known->types & typeOf(p)) && p.isList == (p.name == "texcoord") &&
+	                  (!p.isList || (p.count.bytes == 1 && !p.count.isSigned));
 	return fits ? known : nullptr;
 }
 
@@ -144,12 +142,30 @@ bool isKnown(AttributeOf of, const Element& e, const Property& p)
 {
 	if (isFaceList(e, p))
 		return true;
-	const auto isQuality = [](const Property& q) { return q.name == "quality"; };
-	// Both are the quality; the importer takes one.
-	if (p.name == "confidence" && std::any_of(e.properties.begin(), e.properties.end(), isQuality))
-		return false;
 	const Known* known = whatItIs(of, p);
 	return known && (known->group == kAlone || isWhole(of, e, known->group));
+}
+
+bool isReal(const Element& e, const char* name, unsigned types)
+{
+	return std::any_of(e.properties.begin(), e.properties.end(), [&](const Property& p) {
+		return p.name == name && !p.isList && (typeOf(p) & types);
+	});
+}
+
+/// What the importer takes for a channel of vertices and gets wrong: it puts floats where there is
+/// room for doubles, or the other way round, and makes a grey of an intensity.
+unsigned misreadChannels(const Element& vertex)
+{
+	unsigned channels = 0;
+	if (isReal(vertex, "radius", kDouble))
+		channels |= kVertexRadius;
+	if (isReal(vertex, "confidence", kFloat) && !isReal(vertex, "quality", kReal))
+		channels |= kVertexQuality;
+	if (isReal(vertex, "intensity", kFloat) && !isWhole(AttributeOf::Vertex, vertex, kColour) &&
+	    !isWhole(AttributeOf::Vertex, vertex, kDiffuse))
+		channels |= kVertexColour;
+	return channels;
 }
 
 /// A property on its way to become an attribute.
@@ -171,6 +187,15 @@ Column columnOf(AttributeOf of, const Element& e, std::size_t i)
 	                              [&](const Property& q) { return q.name == p.name; });
 	c.attribute.of         = of;
 	c.attribute.name       = p.name;
+	const unsigned misread = of == AttributeOf::Vertex ? misreadChannels(e) : 0;
+	if (p.name == "radius" && (misread & kVertexRadius)) {
+		c.attribute.kind = AttributeKind::Radius;
+		c.attribute.name.clear();
+	}
+	if (p.name == "confidence" && (misread & kVertexQuality)) {
+		c.attribute.kind = AttributeKind::Quality;
+		c.attribute.name.clear();
+	}
 	c.attribute.components = p.isList ? 3 : 1;
 	c.attribute.type       = !p.item.isFloating  ? NumberType::Integer
 	                         : p.item.bytes == 4 ? NumberType::Float
@@ -272,21 +297,23 @@ PlyProperties readPlyProperties(const Bytes& file)
 	return out;
 }
 
-unsigned channelsInPart(const Bytes& file)
+unsigned channelsNotToTake(const Bytes& file)
 {
 	Head head;
-	unsigned part = 0, whole = 0;
+	unsigned part = 0, whole = 0, misread = 0;
 	if (!parseHead(file, head).empty())
 		return 0;
 	for (const Element& e : head.elements) {
 		if (e.name != "vertex" && e.name != "face")
 			continue;
 		const AttributeOf of = e.name == "face" ? AttributeOf::Face : AttributeOf::Vertex;
+		if (of == AttributeOf::Vertex)
+			misread = misreadChannels(e);
 		for (const Property& p : e.properties)
 			if (const Known* known = whatItIs(of, p); known && known->group != kAlone)
 				(isWhole(of, e, known->group) ? whole : part) |= channelOf(of, known->group);
 	}
-	return part & ~whole;
+	return (part & ~whole) | misread;
 }
 
 bool isNameInPly(const MeshData& mesh, AttributeOf of, const std::string& name)

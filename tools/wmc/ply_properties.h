@@ -18,7 +18,8 @@ namespace wavemesh::tool {
 struct PlyProperties
 {
 	/// Numbers, and lists that have three numbers everywhere. As many rows as vertices or as
-	/// triangles, those of a polygon one after the other.
+	/// triangles, those of a polygon one after the other. Also radius and quality that VCGLib
+	/// would misread.
 	std::vector<Attribute> attributes;
 	/// In a user's words; all else that neither these nor VCGLib take.
 	std::vector<std::string> notRead;
@@ -27,9 +28,9 @@ struct PlyProperties
 /// @pre whatIsWrongWithPly(file) is empty
 PlyProperties readPlyProperties(const Bytes& file);
 
-/// Channels of Channel (wavemesh/vcg_attributes.h) of which the file has a part only: VCGLib makes
-/// up the rest of a colour.
-unsigned channelsInPart(const Bytes& file);
+/// Channels of Channel (wavemesh/vcg_attributes.h) that VCGLib gets wrong: of which the file has a
+/// part only, or in types for which there is no room.
+unsigned channelsNotToTake(const Bytes& file);
 
 /// Has the name a meaning in a PLY of this mesh, for a vertex or a face?
 bool isNameInPly(const MeshData& mesh, AttributeOf of, const std::string& name);

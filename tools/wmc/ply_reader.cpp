@@ -76,6 +76,112 @@ std::string parseHead(const Bytes& file, Head& head)
 	return "its head does not end";
 }
 
+namespace {
+
+constexpr Type kUchar {1, false, false}, kInt {4, false, true};
+
+bool isSame(Type a, Type b)
+{
+	return a.bytes == b.bytes && a.isFloating == b.isFloating && a.isSigned == b.isSigned;
+}
+
+void append(Bytes& out, Type type, double value)
+{
+	std::uint64_t bits = 0;
+	if (type.isFloating && type.bytes == 4) {
+		const auto single = static_cast<float>(value);
+		std::memcpy(&bits, &single, sizeof single);
+	}
+	else if (type.isFloating)
+		std::memcpy(&bits, &value, sizeof value);
+	else // a text may have anything
+		bits = static_cast<std::uint64_t>(
+		    std::isnan(value) ? 0 : static_cast<std::int64_t>(std::clamp(value, -1e18, 1e18)));
+	for (int i = 0; i < type.bytes; ++i)
+		out.push_back(static_cast<std::uint8_t>(bits >> 8 * i));
+}
+
+bool hasUsualTypes(const Head& head)
+{
+	for (const Element& e : head.elements)
+		for (const Property& p : e.properties)
+			if (isFaceList(e, p) && !(isSame(p.count, kUchar) && isSame(p.item, kInt)))
+				return false;
+	return head.encoding != Head::Big;
+}
+
+/// The head's text with another encoding and other types of the lists of vertices.
+std::string usualHead(const Bytes& file, const Head& head)
+{
+	std::istringstream lines(
+	    std::string(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(head.size)));
+	std::string out, element;
+	for (std::string line; std::getline(lines, line);) {
+		std::istringstream words(line);
+		std::string key, a, name;
+		words >> key >> a;
+		if (key == "element")
+			element = a;
+		for (std::string word; words >> word;)
+			name = word;
+		const bool isVertices = name == "vertex_indices" || name == "vertex_index";
+		if (key == "format")
+			line = "format binary_little_endian 1.0";
+		else if (key == "property" && a == "list" && element == "face" && isVertices)
+			line = "property list uchar int vertex_indices";
+		else if (!line.empty() && line.back() == '\r')
+			line.pop_back();
+		out += line + "\n";
+	}
+	return out;
+}
+
+} // namespace
+
+Bytes withUsualTypes(const Bytes& file)
+{
+	Head head;
+	if (!parseHead(file, head).empty() || hasUsualTypes(head))
+		return {};
+	const std::string text = usualHead(file, head);
+	Bytes out(text.begin(), text.end());
+	Numbers numbers(file, head);
+	for (const Element& e : head.elements)
+		for (std::uint64_t row = 0; row < e.number; ++row)
+			for (const Property& p : e.properties) {
+				const bool isFace = isFaceList(e, p);
+				double n = 1, value = 0;
+				if (p.isList) {
+					if (!numbers.next(p.count, n) || n < 0 || (isFace && n > 255))
+						return {};
+					append(out, isFace ? kUchar : p.count, n);
+				}
+				for (; n >= 1; --n) {
+					if (!numbers.next(p.item, value))
+						return {};
+					append(out, isFace ? kInt : p.item, value);
+				}
+			}
+	return out;
+}
+
+std::vector<std::string> textureNames(const Bytes& file, const Head& head)
+{
+	std::istringstream lines(
+	    std::string(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(head.size)));
+	std::vector<std::string> names;
+	for (std::string line; std::getline(lines, line);) {
+		std::istringstream words(line);
+		std::string comment, key, name;
+		words >> comment >> key >> std::ws;
+		if (comment != "comment" || key != "TextureFile" || !std::getline(words, name))
+			continue;
+		name.erase(name.find_last_not_of(" \t\r") + 1);
+		names.push_back(name);
+	}
+	return names;
+}
+
 bool Numbers::next(Type type, double& value)
 {
 	if (head_.encoding == Head::Text)

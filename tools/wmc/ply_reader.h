@@ -59,6 +59,14 @@ private:
 	std::size_t at_;
 };
 
+/// The file as VCGLib reads it right: little-endian, with lists of vertices of the types it
+/// expects. Empty if it is so already, or cannot be.
+/// @pre whatIsWrongWithPly(file) is empty
+Bytes withUsualTypes(const Bytes& file);
+
+/// Names of textures, blanks inside included.
+std::vector<std::string> textureNames(const Bytes& file, const Head& head);
+
 /// Is it the list of a face's vertices?
 inline bool isFaceList(const Element& e, const Property& p)
 {

@@ -214,7 +214,7 @@ void addReport(CLI::App& app, Command& chosen)
 	        "--configs", c->configs,
 	        "The paper's three configurations and the compact mode in one report: I (lazy), II "
 	        "(lifting), III (lifting and wgc), compact. For the three --wgc and --optimize are "
-	        "ignored; --lifting gives the k of II and III")
+	        "ignored; --lifting gives the k of II and III (0 if off)")
 	    ->excludes("--mode");
 	command
 	    ->add_option(

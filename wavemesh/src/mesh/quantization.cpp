@@ -94,8 +94,12 @@ makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, doubl
 		lattice.step = extent / steps;
 	if (!(lattice.step > 0)) // one point, or an extent at the end of the denormals
 		lattice.step = 1;
-	while (!std::isfinite(farCorner(lattice))) // rounded up, next to the largest double
+	constexpr int kRounding = 64; // steps may be rounded up, next to the largest double
+	for (int i = 0; !std::isfinite(farCorner(lattice)); ++i) {
+		if (i == kRounding)
+			return tooLarge();
 		lattice.step = std::nextafter(lattice.step, 0);
+	}
 	return lattice;
 }
 
