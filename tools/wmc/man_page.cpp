@@ -35,7 +35,8 @@ std::string optionEntry(const CLI::Option& option)
 	return entry + "\n";
 }
 
-std::string commandEntry(const CLI::App& command)
+/// @param common  footer of all commands: not told here
+std::string commandEntry(const CLI::App& command, const std::string& common)
 {
 	std::string entry = ".SS wmc " + plain(command.get_name());
 	std::string options;
@@ -45,7 +46,7 @@ std::string commandEntry(const CLI::App& command)
 		if (option->get_name(false, true) != "-h,--help")
 			options += optionEntry(*option);
 	}
-	if (const std::string& footer = command.get_footer(); !footer.empty())
+	if (const std::string footer = command.get_footer(); footer != common)
 		options += ".PP\n" + plain(footer) + "\n";
 	return entry + "\n" + plain(command.get_description()) + ".\n" + options;
 }
@@ -67,7 +68,7 @@ std::string manPage(const CLI::App& app, const std::string& version)
 	                   "Every prefix of it that holds the base mesh is a mesh.\n"
 	                   ".SH COMMANDS\n";
 	for (const CLI::App* command : app.get_subcommands({}))
-		page += commandEntry(*command);
+		page += commandEntry(*command, app.get_footer());
 	page += ".SH NOTES\n" + plain(app.get_footer()) + "\n";
 	page += ".SH EXAMPLES\n.nf\n"
 	        "wmc encode horse.obj horse.wmc \\-\\-bits 12\n"
