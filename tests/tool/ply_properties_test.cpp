@@ -162,6 +162,21 @@ TEST_F(PlyProperties, RadiusAndConfidenceAreRightInWhateverTheyAreWritten)
 			EXPECT_EQ(back.attributes[0].values, (std::vector<double> {0.5, 0.25, 1}));
 			EXPECT_EQ(runWmc({"verify", path("b.ply"), path("a.wmc")}).code, 0);
 		}
+	for (const char* both :
+	     {"property float confidence\nproperty float quality\n",
+	      "property float quality\nproperty float confidence\n"}) {
+		write("a.ply", triangleWith(both, "0.5 2\n0.25 4\n1 8"));
+		auto of = byName(throughWmc("a.ply", {"--exact", "--keep-order"}));
+		ASSERT_EQ(of.size(), 2u);
+		const bool isFirst = both[15] == 'c'; // the confidence
+		EXPECT_EQ(
+		    of["vertex confidence"].values,
+		    isFirst ? (std::vector<double> {0.5, 0.25, 1}) : (std::vector<double> {2, 4, 8}));
+		EXPECT_EQ(of["vertex "].kind, AttributeKind::Quality);
+		EXPECT_EQ(
+		    of["vertex "].values,
+		    isFirst ? (std::vector<double> {2, 4, 8}) : (std::vector<double> {0.5, 0.25, 1}));
+	}
 	write("a.ply", triangleWith("property float confidence\n", "0.5\n0.25\n1"));
 	EXPECT_EQ(throughWmc("a.ply").attributes[0].kind, AttributeKind::Quality);
 	write("a.ply", triangleWith("property double radius\n", "0.5\n0.25\n1"));

@@ -160,7 +160,7 @@ unsigned misreadChannels(const Element& vertex)
 	unsigned channels = 0;
 	if (isReal(vertex, "radius", kDouble))
 		channels |= kVertexRadius;
-	if (isReal(vertex, "confidence", kFloat) && !isReal(vertex, "quality", kReal))
+	if (isReal(vertex, "confidence", kFloat)) // for both there is one place
 		channels |= kVertexQuality;
 	if (isReal(vertex, "intensity", kFloat) && !isWhole(AttributeOf::Vertex, vertex, kColour) &&
 	    !isWhole(AttributeOf::Vertex, vertex, kDiffuse))
@@ -181,10 +181,10 @@ Column columnOf(AttributeOf of, const Element& e, std::size_t i)
 {
 	const Property& p = e.properties[i];
 	Column c;
-	c.isRead =
-	    !isKnown(of, e, p) && std::none_of(
-	                              e.properties.begin(), e.properties.begin() + std::ptrdiff_t(i),
-	                              [&](const Property& q) { return q.name == p.name; });
+	const bool isFirst = std::none_of(
+	    e.properties.begin(), e.properties.begin() + std::ptrdiff_t(i),
+	    [&](const Property& q) { return q.name == p.name; });
+	c.isRead               = isFirst && !isKnown(of, e, p);
 	c.attribute.of         = of;
 	c.attribute.name       = p.name;
 	const unsigned misread = of == AttributeOf::Vertex ? misreadChannels(e) : 0;
@@ -192,7 +192,9 @@ Column columnOf(AttributeOf of, const Element& e, std::size_t i)
 		c.attribute.kind = AttributeKind::Radius;
 		c.attribute.name.clear();
 	}
-	if (p.name == "confidence" && (misread & kVertexQuality)) {
+	const char* quality = isReal(e, "quality", kReal) ? "quality" : "confidence";
+	if (p.name == quality && (misread & kVertexQuality)) {
+		c.isRead         = isFirst;
 		c.attribute.kind = AttributeKind::Quality;
 		c.attribute.name.clear();
 	}
