@@ -56,8 +56,7 @@ const FilterCard kColour = {
     "level, as quality, and colours it by that: where the mesh is rough, where it is smooth, and "
     "which vertices the coarse levels keep. The colour ramp of lengths leaves out a tenth of the "
     "vertices at either end; MeshLab's quality mapper and histogram work on the quality. The mesh "
-    "has to be "
-    "an oriented manifold.",
+    "has to be an oriented manifold.",
     FilterPlugin::Quality | FilterPlugin::VertexColoring,
     MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR};
 
