@@ -204,7 +204,6 @@ std::map<std::string, QVariant> LayerReport::results() const
 	std::map<std::string, QVariant> all;
 	all["diagonal"] = diagonal_;
 	all["samples"]  = countValue(samples_);
-	all["csv"]      = QString::fromStdString(metrics::asCsv(curves_, diagonal_));
 	for (const metrics::Curve& c : curves_) {
 		const std::string key  = keyOf(c.name);
 		const StreamInfo& info = c.info;

@@ -174,8 +174,8 @@ FilterWavemeshPlugin::makeLayers(MeshDocument& document, const RichParameterList
 	}
 	return {
 	    {"layers", int(chosen.size())},
-	    {"from", chosen.front()},
-	    {"to", chosen.back()},
+	    {"first", chosen.front()},
+	    {"last", chosen.back()},
 	    {"finest_level", finest}};
 }
 

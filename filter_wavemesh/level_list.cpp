@@ -12,9 +12,10 @@ namespace wavemesh {
 
 void addLevelListParameters(RichParameterList& list)
 {
-	list.addParam(RichInt("from", 0, "From level", "0 is the base mesh, the coarsest."));
+	// Not "from": Python has a keyword of that name.
+	list.addParam(RichInt("first", 0, "From level", "0 is the base mesh, the coarsest."));
 	list.addParam(RichInt(
-	    "to", kFinestLevel, "To level",
+	    "last", kFinestLevel, "To level",
 	    "-1, or a number larger than there are levels, is the finest level."));
 	list.addParam(
 	    RichInt("step", 1, "Step", "Every how many levels: 1 for each, 2 for every other."));
@@ -44,11 +45,11 @@ std::vector<int> levelList(const RichParameterList& list, int finest)
 		const int step = integerOf(list, "step", 1);
 		if (step < 1)
 			throw MLException("Wavemesh: 'step' has to be 1 or more.");
-		const int from = clamped(std::max(0, integerOf(list, "from", 0)));
-		const int to   = clamped(integerOf(list, "to", kFinestLevel));
-		if (from > to)
-			throw MLException("Wavemesh: 'from' is above 'to': no level is chosen.");
-		for (int level = from; level <= to; level += step)
+		const int first = clamped(std::max(0, integerOf(list, "first", 0)));
+		const int last  = clamped(integerOf(list, "last", kFinestLevel));
+		if (first > last)
+			throw MLException("Wavemesh: 'first' is above 'last': no level is chosen.");
+		for (int level = first; level <= last; level += step)
 			chosen.insert(level);
 	}
 	return {chosen.begin(), chosen.end()};

@@ -86,7 +86,8 @@ void addSliderParameters(RichParameterList& list, const LevelRange& range)
 	    "level", Scalarm(range.shown), 0, Scalarm(std::max(range.finest, 1)),
 	    levelCard(range, range.shown),
 	    "0 is the base mesh, the coarsest; the largest value is the finest level, which is the "
-	    "layer as it was. In scripts -1 is the finest, too. Tick <i>Preview</i> and drag. The "
+	    "layer as it was. In scripts any larger number is the finest, and so is -1 (but for "
+	    "PyMeshLab, which makes 0 of it). Tick <i>Preview</i> and drag. The "
 	    "error is the file's own estimate, in model units.<br>" +
 	        tableOf(range)));
 	list.addParam(RichEnum(
@@ -142,6 +143,8 @@ int chosenLevel(const RichParameterList& list, const StreamInfo& info, int fines
 	if (Snap(snap) == Snap::Error && error > 0)
 		return coarsestWithin(info, finest, error);
 	const double asked = numberOf(list, "level", kFinestLevel);
+	if (std::isnan(asked))
+		throw MLException("Wavemesh: 'level' has to be a number.");
 	if (asked < 0)
 		return finest;
 	return levelAt(info, finest, asked / std::max(finest, 1), Snap(snap));

@@ -330,7 +330,7 @@ TEST(FilterWavemesh, LayersFromLevelsLeaveTheLayerAsItWas)
 	MeshModel& layer  = *host.open(sample("vase.ply")).front();
 	const Shape original(layer);
 	const auto results =
-	    host.apply("Wavemesh: Layers from Levels", {{"from", "0"}, {"to", "-1"}, {"step", "1"}});
+	    host.apply("Wavemesh: Layers from Levels", {{"first", "0"}, {"last", "-1"}, {"step", "1"}});
 	const int finest = results.at("finest_level").toInt();
 	EXPECT_EQ(results.at("layers").toInt(), finest + 1);
 	EXPECT_EQ(int(host.document().meshNumber()), finest + 2);
