@@ -162,8 +162,10 @@ TEST(Schedule, CellsAreBoundedByTheErrorsOfTheLevels)
 {
 	const Levels levels              = levelsOn(makeBumpySphere(1500, 5), 14);
 	const std::vector<double> errors = levelErrors(levels);
-	for (const double times : {0.25, 2.0, 12.0}) {
-		const ScheduleOptions options {64, 64, 1, 1, times};
+	// The bounds of all splits but the last, and of the last.
+	for (const auto& [times, timesOfLast] :
+	     {std::pair {0.25, 0.25}, {2.0, 2.0}, {12.0, 12.0}, {2.0, 0.0}, {0.0, 0.5}}) {
+		const ScheduleOptions options {64, 64, 1, 1, times, timesOfLast};
 		const Schedule s = makeSchedule(levels, 14, options);
 		ASSERT_EQ(whatIsWrong(s, levels, 14, options), "");
 		int shift         = s.baseShift;
@@ -174,7 +176,14 @@ TEST(Schedule, CellsAreBoundedByTheErrorsOfTheLevels)
 				continue;
 			}
 			// Before the next split a level has all the bits that it is to have.
-			EXPECT_LE(std::ldexp(1.0, shift), std::max(1.0, times * errors[level]));
+			const bool last    = level + 1 == levels.splits();
+			const double bound = last ? timesOfLast : times;
+			if (bound > 0)
+				EXPECT_LE(std::ldexp(1.0, shift), std::max(1.0, bound * errors[level]));
+			else // half an edge, or what the level before has already
+				EXPECT_GT(
+				    std::ldexp(1.0, last ? s.steps.back().bits : shift), 2 * errors[level])
+				    << "no bound is none";
 			++level;
 		}
 	}

@@ -73,16 +73,16 @@ Schedule makeSchedule(const Levels& levels, int latticeBits, const ScheduleOptio
 {
 	Schedule schedule;
 	const std::vector<double> errors =
-	    options.cellErrors > 0 ? levelErrors(levels) : std::vector<double>();
+	    options.cellErrors > 0 || options.lastSplitErrors > 0 ? levelErrors(levels)
+	                                                          : std::vector<double>();
 	const auto shiftOf = [&](std::size_t i) {
-		int most = latticeBits - 1;
-		if (options.cellErrors > 0) {
-			const double cell = options.cellErrors * errors[i];
-			for (most = 0; most < latticeBits - 1 && double(2u << most) <= cell;)
+		const bool last    = i + 1 >= levels.splits();
+		const int width    = last ? options.lastSplitSixteenths : options.cellSixteenths;
+		const double bound = last ? options.lastSplitErrors : options.cellErrors;
+		int most           = latticeBits - 1;
+		if (bound > 0)
+			for (most = 0; most < latticeBits - 1 && double(2u << most) <= bound * errors[i];)
 				++most;
-		}
-		const int width =
-		    i + 1 >= levels.splits() ? options.lastSplitSixteenths : options.cellSixteenths;
 		return std::min(most, shiftFor(levels.table(i), levels.positions, width));
 	};
 	int shift          = shiftOf(0);

@@ -25,8 +25,11 @@ struct ScheduleOptions
 	/// lattices.
 	int lastBits = 1;
 	/// A level's cells are no wider than so many times its error (level_errors.h): wider ones cost
-	/// more in distance than they save in bits. 0: no such bound, the smallest file.
+	/// more in distance than they save in bits, and where surfaces are smooth not even bits are
+	/// saved, as predictions from wide cells are poor. 0: no such bound.
 	double cellErrors = 0;
+	/// The same while the last split is coded.
+	double lastSplitErrors = 0;
 };
 
 /// A refinement: a split, or `bits` more bits of every coordinate.

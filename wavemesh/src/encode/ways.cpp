@@ -10,19 +10,20 @@ namespace {
 constexpr std::size_t kSmall = 4096;  ///< vertices; their time is nothing
 constexpr std::size_t kLarge = 16384; ///< vertices; here speed counts
 
-/// How narrow the cells of the levels are.
+/// How narrow the cells of the levels are: members of ScheduleOptions, where surfaces are smooth.
 struct Cells
 {
-	/// ScheduleOptions::cellSixteenths and lastSplitSixteenths where surfaces are smooth.
-	int sixteenths, lastSplit;
-	/// ScheduleOptions::cellErrors, and the same where coordinates repeat: they are cheaper exact
-	/// from the start than half known.
-	double errors, errorsOfRepeats;
+	int sixteenths;
+	double errors, lastSplitErrors;
+	/// cellErrors and lastSplitErrors where coordinates repeat: they are cheaper exact from the start
+	/// than half known.
+	double errorsOfRepeats;
 };
-constexpr Cells kCellsForLevels {8, 8, 2, 2};
-constexpr Cells kCellsForBalanced {4, 8, 0, 0.25};
-constexpr Cells kCellsBetween {6, 6, 0, 0.5};
-constexpr Cells kCellsForSize {8, 8, 0, 0};
+constexpr Cells kCellsForLevels {8, 2, 2, 2};
+constexpr Cells kNarrowCells {2, 2, 0, 0.25};
+constexpr Cells kCellsForBalanced {2, 4, 0, 0.25};
+constexpr Cells kCellsBetween {4, 5, 0, 0.5};
+constexpr Cells kCellsForSize {8, 0, 0, 0};
 
 Cells cellsFor(Optimize aim)
 {
@@ -40,11 +41,11 @@ std::vector<Coding> codings(int effort, const Cells& cells, std::size_t vertices
 	const PredictorSet all = PredictorSet::All, repeats = PredictorSet::Repeats;
 	const bool small = vertices < kSmall;
 	ScheduleOptions smooth, exact;
-	smooth.cellSixteenths      = cells.sixteenths;
-	smooth.lastSplitSixteenths = cells.lastSplit;
-	smooth.cellErrors          = cells.errors;
-	exact.lastBits             = ScheduleOptions::kAll;
-	exact.cellErrors           = cells.errorsOfRepeats;
+	smooth.cellSixteenths  = cells.sixteenths;
+	smooth.cellErrors      = cells.errors;
+	smooth.lastSplitErrors = cells.lastSplitErrors;
+	exact.lastBits         = ScheduleOptions::kAll;
+	exact.cellErrors = exact.lastSplitErrors = cells.errorsOfRepeats;
 	if (effort < 3) {
 		if (small)
 			return {{smooth, all}, {exact, repeats}};
@@ -70,6 +71,11 @@ std::vector<Coding> codings(int effort, const Cells& cells, std::size_t vertices
 			add(smooth, lastBits, all);
 		smooth.lastBits = 2;
 		addWidths(smooth, all);
+		for (const double errors : {2, 5}) {
+			smooth.cellErrors = errors;
+			some.push_back({smooth, all});
+		}
+		smooth.cellErrors = cells.errors;
 	}
 	for (const int lastBits : {1, 2, kAll})
 		add(smooth, lastBits, repeats);
@@ -87,7 +93,7 @@ Steering steeringFor(Optimize aim)
 	// Shares and steps from experiment, on meshes of all kinds: docs/algorithm.md, section 3.
 	switch (aim) {
 	case Optimize::Balanced:
-		return {1, 0.99, 0.9};
+		return {1, 0.99, 0.9, 0.95};
 	case Optimize::Levels:
 		return {0, 0.95, 0.7};
 	case Optimize::Size:
@@ -120,7 +126,8 @@ std::vector<Way> waysToEncode(const EncodeOptions& options, std::size_t vertices
 		add(wanted, options.wgc == Wgc::On && wanted != Optimize::Levels, {cellsFor(wanted)});
 	else if (vertices < kSmall && wanted != Optimize::Levels) {
 		add(Optimize::Levels, false, {kCellsForLevels});
-		add(Optimize::Balanced, false, {kCellsForBalanced, kCellsBetween, kCellsForSize});
+		add(Optimize::Balanced, false,
+		    {kNarrowCells, kCellsForBalanced, kCellsBetween, kCellsForSize});
 		add(Optimize::Size, false, {kCellsBetween, kCellsForSize});
 		if (classic || options.effort == 3)
 			add(Optimize::Size, true, {kCellsForSize});
@@ -128,8 +135,9 @@ std::vector<Way> waysToEncode(const EncodeOptions& options, std::size_t vertices
 	else if (
 	    wanted == Optimize::Balanced &&
 	    (options.effort == 3 || (options.effort == 2 && vertices < kLarge))) {
-		add(Optimize::Balanced, false, {kCellsForBalanced, kCellsBetween, kCellsForSize});
-		add(Optimize::Size, false, {kCellsBetween, kCellsForSize});
+		add(Optimize::Balanced, false,
+		    {kNarrowCells, kCellsForBalanced, kCellsBetween, kCellsForSize});
+		add(Optimize::Size, false, {kCellsForSize});
 	}
 	else {
 		add(wanted, false, {cellsFor(wanted)});

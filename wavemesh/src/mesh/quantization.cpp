@@ -92,8 +92,10 @@ makeLattice(const std::vector<std::array<double, 3>>& positions, int bits, doubl
 	}
 	else
 		lattice.step = extent / steps;
-	if (!(lattice.step > 0)) // one point, or an extent at the end of the denormals
+	if (!(extent > 0))
 		lattice.step = 1;
+	else if (std::round(extent / lattice.step) > steps) // rounded down, among the denormals
+		lattice.step = std::nextafter(lattice.step, 1);
 	constexpr int kRounding = 64; // steps may be rounded up, next to the largest double
 	for (int i = 0; !std::isfinite(farCorner(lattice)); ++i) {
 		if (i == kRounding)

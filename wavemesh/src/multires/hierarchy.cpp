@@ -129,7 +129,7 @@ std::vector<Coarsening> coarsenAll(
 	std::vector<std::uint8_t> stay   = kept;
 	Quadrics quadrics;
 	const bool steered = steering.freeSteps != Steering::kNever;
-	double share       = steering.firstShare;
+	double share       = steering.finestShare;
 	for (;;) {
 		const int i = int(steps.size());
 		Coarsening next;
@@ -140,16 +140,16 @@ std::vector<Coarsening> coarsenAll(
 			quadrics = Quadrics(table, positions);
 		if (free && steered)
 			free = excessError(*fine, points, quadrics, next) <= kFreeExcess;
-		if (!free) {
-			next  = steer(*fine, points, stay, {&quadrics, share}, seams);
-			share = steering.share;
-		}
+		if (!free)
+			next = steer(*fine, points, stay, {&quadrics, share}, seams);
 		if (seams.any() && !worthItsSeams(next.coarse.vertexCount, fine->vertexCount)) {
 			seams = {};
 			continue;
 		}
 		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount))
 			break;
+		if (i == 0)
+			share = free ? steering.shareAfterFree : steering.share;
 		seams.carry(next);
 		if (steered)
 			quadrics.carry(next, points);

@@ -20,8 +20,9 @@ struct Steering
 	/// So many of the finest steps are left to connectivity and the geometrical criterion, unless
 	/// the error is much larger then.
 	int freeSteps = kNever;
-	/// ErrorCriterion::share of the first step that is steered, and of those after it.
-	double firstShare = 0.99, share = 0.9;
+	/// ErrorCriterion::share of the finest step where it is steered, of coarser ones where the finest
+	/// is, and where it was left free.
+	double finestShare = 0.99, share = 0.9, shareAfterFree = 0.95;
 };
 
 /// @param criterion  steers the steps that `steering` does not
