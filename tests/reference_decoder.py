@@ -322,7 +322,7 @@ def check_level_table(head):
         good = good and head.connectivity[i] <= head.bytes[i]
         if i > 0:
             good = good and vertices[i - 1] <= vertices[i] <= vertices[i - 1] + 4 * faces[i - 1]
-            good = good and faces[i - 1] <= faces[i] <= 4 * faces[i - 1]
+            good = good and 0 < faces[i - 1] <= faces[i] <= 4 * faces[i - 1]
     if head.features & 1:
         good = good and head.original_faces >= faces[head.J]
     if not good:

@@ -92,8 +92,11 @@ std::vector<MeshData> levelByLevel(const std::uint8_t* data, std::size_t size)
 		const Status s   = decoder->advance();
 		checkStatus(s);
 		// What a chunk behind the levels contradicts is no mesh to use.
-		if (!s.ok() && s.code != StatusCode::Truncated)
+		if (!s.ok() && s.code != StatusCode::Truncated) {
+			require(
+			    before < 0 || decoder->mesh().positions.empty(), "no mesh is left after an error");
 			break;
+		}
 		if (decoder->level() > before) {
 			levels.push_back(decoder->mesh());
 			checkLevel(*decoder, levels.back(), s.ok());

@@ -320,6 +320,15 @@ std::vector<Golden> badOnes()
 	add("base_too_large",
 	    withHead(file, [](Head& h) { h.rows[0].vertices = 3 * h.rows[0].faces + 1; }),
 	    StatusCode::Corrupt);
+	add("split_of_nothing",
+	    withHead(
+	        file,
+	        [](Head& h) {
+		        h.rows.resize(2);
+		        h.rows[0].vertices = h.rows[0].faces = h.rows[1].vertices = h.rows[1].faces = 0;
+		        h.rows[1].endsChunk = true;
+	        }),
+	    StatusCode::Corrupt);
 	add("beyond_the_limit",
 	    withHead(
 	        file,

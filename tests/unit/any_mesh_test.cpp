@@ -408,5 +408,24 @@ TEST(AnyMesh, RandomFacesComeBack)
 				    << vertices << " " << faces << " " << seed;
 }
 
+// What is missing after the levels must not change how they are shown.
+TEST(AnyMesh, AnIsolatedVertexLeavesTheLevelsAsTheyAre)
+{
+	MeshData mesh = makeBumpySphere(900, 31);
+	EncodeOptions o;
+	o.bits              = 14;
+	const auto closed   = encode(mesh, o);
+	mesh.positions.push_back(mesh.positions[0]);
+	const auto isolated = encode(mesh, o);
+	ASSERT_EQ(closed->info.finestLevel(), isolated->info.finestLevel());
+	for (int level = 0; level < closed->info.finestLevel(); ++level) {
+		DecodeOptions d;
+		d.level      = level;
+		const auto a = decode(closed->bytes.data(), closed->bytes.size(), d),
+		           b = decode(isolated->bytes.data(), isolated->bytes.size(), d);
+		ASSERT_EQ(a->mesh.positions, b->mesh.positions) << level;
+	}
+}
+
 } // namespace
 } // namespace wavemesh::test

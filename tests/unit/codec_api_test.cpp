@@ -260,7 +260,7 @@ TEST(Progress, OfLevels_IsByTheirWork)
 	}
 }
 
-TEST(Progress, OfALevelCancels_AndTheDecoderStaysWhereItWas)
+TEST(Progress, OfALevelCancels_AndTheDecoderHasNoMeshAnyMore)
 {
 	const auto file = encode(makeBumpySphere(5000, 128));
 	auto decoder    = Decoder::open(file->bytes.data(), file->bytes.size());
@@ -270,6 +270,27 @@ TEST(Progress, OfALevelCancels_AndTheDecoderStaysWhereItWas)
 	EXPECT_EQ(decoder->advance([](double) { return false; }).code, StatusCode::Cancelled);
 	EXPECT_EQ(decoder->level(), level);
 	EXPECT_EQ(decoder->advance().code, StatusCode::Cancelled);
+	EXPECT_TRUE(decoder->mesh().positions.empty());
+}
+
+TEST(Progress, CancelsEveryLevel_AndNoMeshIsLeft)
+{
+	const MeshData mesh = makeBumpySphere(900, 128);
+	for (const Mode mode : {Mode::Compact, Mode::Classic}) {
+		EncodeOptions o;
+		o.mode          = mode;
+		const auto file = encode(mesh, o);
+		for (int last = 0; last <= file->info.finestLevel(); ++last) {
+			auto decoder = Decoder::open(file->bytes.data(), file->bytes.size());
+			while (decoder->level() + 1 < last)
+				ASSERT_TRUE(decoder->advance().ok());
+			const Status s = decoder->advance([](double) { return false; });
+			if (s.ok() || decoder->level() < 0) // a base mesh does not ask
+				continue;
+			EXPECT_EQ(s.code, StatusCode::Cancelled);
+			EXPECT_TRUE(decoder->mesh().positions.empty()) << last;
+		}
+	}
 }
 
 TEST(Progress, CancelsEncodeAtEveryCall)

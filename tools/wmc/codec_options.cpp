@@ -64,7 +64,7 @@ void CodecOptions::addTo(CLI::App& command)
 	    .add_option(
 	        "--effort", effort,
 	        "1 is the fastest, and always writes the classic mode, without lifting unless --mode "
-	        "classic; 2 encodes in one way, small meshes in 2 to 12, and 3 in 6 to 77 ways, of "
+	        "classic; 2 encodes in one way, small meshes in 2 to 14, and 3 in 6 to 104 ways, of "
 	        "which the best file is kept. Decoding takes about 1, 6 and 9 microseconds a "
 	        "vertex at 12 bits, up to 4, 20 and 35 at 24")
 	    ->check(CLI::IsMember({1, 2, 3}))

@@ -234,6 +234,9 @@ Status Decoder::advance(const Progress& progress)
 MeshData Decoder::mesh() const
 {
 	const State& s = *state_;
+	// A level that was given up half-way has changed what the level before needs.
+	if (!s.stopped.ok() && s.stopped.code != StatusCode::Truncated)
+		return {};
 	if (s.finished)
 		return *s.finished;
 	MeshData out;

@@ -128,7 +128,7 @@ Status Decoder::State::readChildren(const Refinement& refinement, const CornerTa
 		    syntax.codeChildren(table, refinement, lastParents, row(level + 1).shift, positions);
 	    },
 	    coder, *compactModels, child, head.lattice.bits, glue);
-	if (child.vertexCount == info.levels.back().vertices)
+	if (child.vertexCount == head.rows.back().vertices)
 		lastParents = {}; // no level is shown that needs them
 	if (cancelled)
 		return wavemesh::cancelled();

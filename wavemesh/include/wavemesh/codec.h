@@ -58,7 +58,7 @@ struct EncodeOptions
 	/// What encoding and decoding may cost, 1..3. 1 is the fastest: the contexts of connectivity
 	/// are fewer, and a compact file becomes a classic one without lifting. 2 chooses a schedule by
 	/// a look at the mesh, but tries up to 12 below 4096 vertices, and 5 below 16384 to be sure of
-	/// what Balanced promises; 3 encodes in 6 to 77 ways. Decoding costs about 1, 6 and 9
+	/// what Balanced promises; 3 encodes in 6 to 104 ways. Decoding costs about 1, 6 and 9
 	/// microseconds a vertex of the original at 12 bits, and up to 4, 20 and 35 at 24.
 	int effort = 2;
 
@@ -256,9 +256,12 @@ std::vector<double> decodingShares(const StreamInfo& info, int target);
 /// Decodes level by level; what decode() is made of, for browsing and for streams.
 ///
 ///     auto decoder = Decoder::open(data, size);
-///     while (decoder.ok() && decoder->level() < decoder->info().finestLevel()) {
-///         Status s = decoder->advance();
-///         use(decoder->mesh());
+///     Status s     = decoder.status();
+///     while (s.ok() && decoder->level() < decoder->info().finestLevel()) {
+///         const int before = decoder->level();
+///         s                = decoder->advance();
+///         if (decoder->level() > before && (s.ok() || s.code == StatusCode::Truncated))
+///             use(decoder->mesh());
 ///     }
 class Decoder
 {
@@ -274,12 +277,12 @@ public:
 	const StreamInfo& info() const;
 	/// Level of mesh(), or -1 before the first advance().
 	int level() const;
-	/// Decodes the next level. After an error the decoder stays at the level it had; after
-	/// Truncated it may have moved to a partly predicted level and does not advance any more. Nor
-	/// does it after Cancelled.
+	/// Decodes the next level. After Truncated the decoder may have moved to a partly predicted level;
+	/// after any other error, Cancelled too, it has no mesh. It does not advance any more after either.
 	/// @param progress  of this level
 	Status advance(const Progress& progress = {});
-	/// The mesh of the current level. @pre level() >= 0
+	/// The mesh of the current level; empty after an error other than Truncated. A copy, linear each
+	/// time. @pre level() >= 0
 	MeshData mesh() const;
 
 private:

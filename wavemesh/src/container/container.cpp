@@ -160,7 +160,9 @@ Status checkRows(const std::vector<LevelRow>& rows, int bits)
 				return corruptHead("impossible base mesh");
 			continue;
 		}
-		const LevelRow& coarser           = rows[i - 1];
+		const LevelRow& coarser = rows[i - 1];
+		if (coarser.faces == 0)
+			return corruptHead("a level grows out of nothing");
 		const std::uint64_t edgesAndFaces = 4 * std::uint64_t(coarser.faces);
 		if (row.vertices < coarser.vertices || row.faces < coarser.faces ||
 		    row.faces > 4 * std::uint64_t(coarser.faces) ||

@@ -13,17 +13,17 @@ constexpr std::size_t kLarge = 16384; ///< vertices; here speed counts
 /// How narrow the cells of the levels are: members of ScheduleOptions, where surfaces are smooth.
 struct Cells
 {
-	int sixteenths;
+	int sixteenths, lastSplit;
 	double errors, lastSplitErrors;
 	/// cellErrors and lastSplitErrors where coordinates repeat: they are cheaper exact from the start
 	/// than half known.
 	double errorsOfRepeats;
 };
-constexpr Cells kCellsForLevels {8, 2, 2, 2};
-constexpr Cells kNarrowCells {2, 2, 0, 0.25};
-constexpr Cells kCellsForBalanced {2, 4, 0, 0.25};
-constexpr Cells kCellsBetween {4, 5, 0, 0.5};
-constexpr Cells kCellsForSize {8, 0, 0, 0};
+constexpr Cells kCellsForLevels {8, 8, 2, 2, 2};
+constexpr Cells kNarrowCells {2, 8, 2, 0, 0.25};
+constexpr Cells kCellsForBalanced {2, 8, 4, 0, 0.25};
+constexpr Cells kCellsBetween {6, 6, 0, 0, 0.5};
+constexpr Cells kCellsForSize {8, 8, 0, 0, 0};
 
 Cells cellsFor(Optimize aim)
 {
@@ -41,10 +41,11 @@ std::vector<Coding> codings(int effort, const Cells& cells, std::size_t vertices
 	const PredictorSet all = PredictorSet::All, repeats = PredictorSet::Repeats;
 	const bool small = vertices < kSmall;
 	ScheduleOptions smooth, exact;
-	smooth.cellSixteenths  = cells.sixteenths;
-	smooth.cellErrors      = cells.errors;
-	smooth.lastSplitErrors = cells.lastSplitErrors;
-	exact.lastBits         = ScheduleOptions::kAll;
+	smooth.cellSixteenths      = cells.sixteenths;
+	smooth.lastSplitSixteenths = cells.lastSplit;
+	smooth.cellErrors          = cells.errors;
+	smooth.lastSplitErrors     = cells.lastSplitErrors;
+	exact.lastBits             = ScheduleOptions::kAll;
 	exact.cellErrors = exact.lastSplitErrors = cells.errorsOfRepeats;
 	if (effort < 3) {
 		if (small)
