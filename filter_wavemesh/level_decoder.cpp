@@ -60,8 +60,8 @@ void LevelDecoder::work()
 		bool came = false;
 		try {
 			status = decoder_.advance(unlessQuit);
-			came   = (status.ok() || status.code == StatusCode::Truncated) &&
-			       decoder_.level() == ready_;
+			came =
+			    (status.ok() || status.code == StatusCode::Truncated) && decoder_.level() == ready_;
 			if (came)
 				mesh = decoder_.mesh();
 		}

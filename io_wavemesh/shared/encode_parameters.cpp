@@ -46,7 +46,8 @@ void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults,
 	list.addParam(RichInt(
 	    "effort", defaults.effort, "Effort (1 to 3)",
 	    "1 is the fastest to save and to open, for a larger file: it always writes the classic "
-	    "mode. 2 chooses one way by a look at the mesh (of up to fourteen if the mesh is small), and "
+	    "mode. 2 chooses one way by a look at the mesh (of up to fourteen if the mesh is small), "
+	    "and "
 	    "3 tries many, keeps the best file, and takes four to twenty times as long to save.",
 	    hideMethod));
 	list.addParam(RichEnum(

@@ -326,7 +326,7 @@ std::vector<Golden> badOnes()
 	        [](Head& h) {
 		        h.rows.resize(2);
 		        h.rows[0].vertices = h.rows[0].faces = h.rows[1].vertices = h.rows[1].faces = 0;
-		        h.rows[1].endsChunk = true;
+		        h.rows[1].endsChunk                                                         = true;
 	        }),
 	    StatusCode::Corrupt);
 	add("beyond_the_limit",

@@ -413,8 +413,8 @@ TEST(AnyMesh, AnIsolatedVertexLeavesTheLevelsAsTheyAre)
 {
 	MeshData mesh = makeBumpySphere(900, 31);
 	EncodeOptions o;
-	o.bits              = 14;
-	const auto closed   = encode(mesh, o);
+	o.bits            = 14;
+	const auto closed = encode(mesh, o);
 	mesh.positions.push_back(mesh.positions[0]);
 	const auto isolated = encode(mesh, o);
 	ASSERT_EQ(closed->info.finestLevel(), isolated->info.finestLevel());

@@ -71,7 +71,8 @@ TEST(Quantise, AmongTheDenormals_KeepsEveryPointWithinHalfAStep)
 {
 	const double unit = std::numeric_limits<double>::denorm_min();
 	for (const double extent : {1.0, 7.0, 2047.0, 4095.0, 4097.0, 6141.0, 6143.0, 530060.0, 1e9}) {
-		const Positions positions {{0, 0, 0}, {extent * unit, 0, 0}, {0, std::floor(extent / 3) * unit, 0}};
+		const Positions positions {
+		    {0, 0, 0}, {extent * unit, 0, 0}, {0, std::floor(extent / 3) * unit, 0}};
 		const auto lattice = makeLattice(positions, 12, 0);
 		ASSERT_TRUE(lattice.ok());
 		const auto points = quantise(positions, *lattice);

@@ -277,12 +277,13 @@ public:
 	const StreamInfo& info() const;
 	/// Level of mesh(), or -1 before the first advance().
 	int level() const;
-	/// Decodes the next level. After Truncated the decoder may have moved to a partly predicted level;
-	/// after any other error, Cancelled too, it has no mesh. It does not advance any more after either.
+	/// Decodes the next level. After Truncated the decoder may have moved to a partly predicted
+	/// level; after any other error, Cancelled too, it has no mesh. It does not advance any more
+	/// after either.
 	/// @param progress  of this level
 	Status advance(const Progress& progress = {});
-	/// The mesh of the current level; empty after an error other than Truncated. A copy, linear each
-	/// time. @pre level() >= 0
+	/// The mesh of the current level; empty after an error other than Truncated. A copy, linear
+	/// each time. @pre level() >= 0
 	MeshData mesh() const;
 
 private:

@@ -72,18 +72,18 @@ double differentValues(const std::vector<LatticePoint>& positions)
 Schedule makeSchedule(const Levels& levels, int latticeBits, const ScheduleOptions& options)
 {
 	Schedule schedule;
-	const std::vector<double> errors =
-	    options.cellErrors > 0 || options.lastSplitErrors > 0 ? levelErrors(levels)
-	                                                          : std::vector<double>();
-	const auto shiftOf = [&](std::size_t i) {
-		const bool last    = i + 1 >= levels.splits();
-		const int width    = last ? options.lastSplitSixteenths : options.cellSixteenths;
-		const double bound = last ? options.lastSplitErrors : options.cellErrors;
-		int most           = latticeBits - 1;
-		if (bound > 0)
-			for (most = 0; most < latticeBits - 1 && double(2u << most) <= bound * errors[i];)
-				++most;
-		return std::min(most, shiftFor(levels.table(i), levels.positions, width));
+	const std::vector<double> errors = options.cellErrors > 0 || options.lastSplitErrors > 0
+	                                       ? levelErrors(levels)
+	                                       : std::vector<double>();
+	const auto shiftOf               = [&](std::size_t i) {
+        const bool last    = i + 1 >= levels.splits();
+        const int width    = last ? options.lastSplitSixteenths : options.cellSixteenths;
+        const double bound = last ? options.lastSplitErrors : options.cellErrors;
+        int most           = latticeBits - 1;
+        if (bound > 0)
+            for (most = 0; most < latticeBits - 1 && double(2u << most) <= bound * errors[i];)
+                ++most;
+        return std::min(most, shiftFor(levels.table(i), levels.positions, width));
 	};
 	int shift          = shiftOf(0);
 	schedule.baseShift = shift;

@@ -15,8 +15,8 @@ struct Cells
 {
 	int sixteenths, lastSplit;
 	double errors, lastSplitErrors;
-	/// cellErrors and lastSplitErrors where coordinates repeat: they are cheaper exact from the start
-	/// than half known.
+	/// cellErrors and lastSplitErrors where coordinates repeat: they are cheaper exact from the
+	/// start than half known.
 	double errorsOfRepeats;
 };
 constexpr Cells kCellsForLevels {8, 8, 2, 2, 2};

@@ -20,8 +20,8 @@ struct Steering
 	/// So many of the finest steps are left to connectivity and the geometrical criterion, unless
 	/// the error is much larger then.
 	int freeSteps = kNever;
-	/// ErrorCriterion::share of the finest step where it is steered, of coarser ones where the finest
-	/// is, and where it was left free.
+	/// ErrorCriterion::share of the finest step where it is steered, of coarser ones where the
+	/// finest is, and where it was left free.
 	double finestShare = 0.99, share = 0.9, shareAfterFree = 0.95;
 };
 
