@@ -47,8 +47,7 @@ void addEncodeParameters(RichParameterList& list, const EncodeOptions& defaults,
 	    "effort", defaults.effort, "Effort (1 to 3)",
 	    "1 is the fastest to save and to open, for a larger file: it always writes the classic "
 	    "mode. 2 chooses one way by a look at the mesh (of up to fourteen if the mesh is small), "
-	    "and "
-	    "3 tries many, keeps the best file, and takes four to twenty times as long to save.",
+	    "and 3 tries many, keeps the best file, and takes four to twenty times as long to save.",
 	    hideMethod));
 	list.addParam(RichEnum(
 	    "wgc", int(defaults.wgc), {"off", "on", "auto"}, "Geometrical criterion (WGC)",

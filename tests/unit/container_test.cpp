@@ -228,6 +228,12 @@ TEST(Head, WithALevelThatASplitCannotGive_IsCorrupt)
 	h                  = good;
 	h.rows[0].vertices = 3 * h.rows[0].faces + 1;
 	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "more vertices than corners in the base";
+	h                  = good;
+	h.rows.front()     = {};
+	h.rows[1].vertices = h.rows[1].faces = 0;
+	h.rows.resize(2);
+	h.rows.back().endsChunk = true;
+	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "a split of nothing";
 	h                       = good;
 	h.rows.back().endsChunk = false;
 	EXPECT_EQ(codeOf(h), StatusCode::Corrupt) << "the last chunk is open";

@@ -57,7 +57,7 @@ struct EncodeOptions
 	Mode mode = Mode::Compact;
 	/// What encoding and decoding may cost, 1..3. 1 is the fastest: the contexts of connectivity
 	/// are fewer, and a compact file becomes a classic one without lifting. 2 chooses a schedule by
-	/// a look at the mesh, but tries up to 12 below 4096 vertices, and 5 below 16384 to be sure of
+	/// a look at the mesh, but tries up to 14 below 4096 vertices, and 5 below 16384 to be sure of
 	/// what Balanced promises; 3 encodes in 6 to 104 ways. Decoding costs about 1, 6 and 9
 	/// microseconds a vertex of the original at 12 bits, and up to 4, 20 and 35 at 24.
 	int effort = 2;

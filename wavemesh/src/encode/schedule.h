@@ -28,7 +28,8 @@ struct ScheduleOptions
 	/// more in distance than they save in bits, and where surfaces are smooth not even bits are
 	/// saved, as predictions from wide cells are poor. 0: no such bound.
 	double cellErrors = 0;
-	/// The same while the last split is coded.
+	/// The same while the last split is coded. Cells never widen again: what narrows those of a
+	/// coarser level narrows these.
 	double lastSplitErrors = 0;
 };
 

@@ -94,7 +94,7 @@ Steering steeringFor(Optimize aim)
 	// Shares and steps from experiment, on meshes of all kinds: docs/algorithm.md, section 3.
 	switch (aim) {
 	case Optimize::Balanced:
-		return {1, 0.99, 0.9, 0.95};
+		return {1, 0.99, 0.9, 0.96};
 	case Optimize::Levels:
 		return {0, 0.95, 0.7};
 	case Optimize::Size:

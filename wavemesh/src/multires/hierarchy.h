@@ -22,7 +22,7 @@ struct Steering
 	int freeSteps = kNever;
 	/// ErrorCriterion::share of the finest step where it is steered, of coarser ones where the
 	/// finest is, and where it was left free.
-	double finestShare = 0.99, share = 0.9, shareAfterFree = 0.95;
+	double finestShare = 0.99, share = 0.9, shareAfterFree = 0.96;
 };
 
 /// @param criterion  steers the steps that `steering` does not
