@@ -146,6 +146,44 @@ INSTANTIATE_TEST_SUITE_P(
 	    return family.param.name;
     });
 
+std::vector<Index> vertexCounts(const MeshData& mesh, const Steering& steering)
+{
+	const Levels levels = makeLevels(mesh, {}, 12, steering);
+	std::vector<Index> counts;
+	for (const ReplayedLevel& level : levels.replay.levels)
+		counts.push_back(level.parent.vertexCount);
+	return counts;
+}
+
+/// Of the finest splits, one after the other: how many are regular.
+std::size_t regularSplits(std::vector<Index> counts, Index finest)
+{
+	std::size_t n = 0;
+	for (; !counts.empty() && isRegularSplit(counts.back(), finest); ++n) {
+		finest = counts.back();
+		counts.pop_back();
+	}
+	return n;
+}
+
+TEST(Steering, RegularSplitsFromTheFinestOnAreLeftToConnectivity)
+{
+	const std::pair<MeshData, bool> meshes[] = {
+	    {makeTorus(64, 32), true},
+	    {makeTorus(54, 30), true},
+	    {makeIcosphere(16), true},
+	    {makeBumpySphere(900, 1), false}};
+	for (const auto& [mesh, isRegular] : meshes) {
+		const auto finest = Index(mesh.positions.size());
+		auto steered = vertexCounts(mesh, {0, 0.5, 0.5}), free = vertexCounts(mesh, {});
+		const std::size_t regular = regularSplits(free, finest);
+		ASSERT_EQ(regular > 0, isRegular) << finest;
+		for (std::size_t i = 0; i < regular; ++i, free.pop_back(), steered.pop_back())
+			ASSERT_EQ(steered.back(), free.back()) << finest << ": split " << i;
+		EXPECT_NE(steered, free) << finest << ": others are by error";
+	}
+}
+
 // ---- the paper's criterion, computed anew -------------------------------------------------------
 
 using Vector = std::array<double, 3>;

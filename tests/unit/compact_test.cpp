@@ -49,6 +49,20 @@ TEST(Compact, IsSmallerThanClassicWhereSurfacesAreSmoothOrRepeat)
 	}
 }
 
+// Large enough to be encoded in one way; a smooth surface is predicted from exact coarse levels,
+// and another choice of vertices than 4:1 would not pay.
+TEST(Compact, RegularMeshes_AreSmallForEveryAim)
+{
+	const MeshData torus = makeTorus(160, 104), sphere = makeIcosphere(48);
+	const auto bitsPerVertex = [](const MeshData& mesh, Optimize aim) {
+		return 8.0 * double(compact(mesh, 12, 2, aim).bytes.size()) / double(mesh.positions.size());
+	};
+	for (const Optimize aim : {Optimize::Size, Optimize::Balanced, Optimize::Levels}) {
+		EXPECT_LE(bitsPerVertex(torus, aim), 1.9) << int(aim);
+		EXPECT_LE(bitsPerVertex(sphere, aim), 2.75) << int(aim);
+	}
+}
+
 TEST(Compact, Effort3_IsNeverLargerThanEffort2)
 {
 	for (const auto& family : smallFamilies(200)) {

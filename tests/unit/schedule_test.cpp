@@ -132,6 +132,18 @@ TEST(Schedule, ABoundForTheLastSplitCountsThereOnly)
 	EXPECT_LT(bitsMissing(bound), bitsMissing(free));
 }
 
+TEST(Schedule, ABoundForRegularSplitsCountsOnlyWhereTheLastIsOne)
+{
+	const ScheduleOptions wide {8, 8, 1, 1, 0, 0, 0}, exact {8, 8, 1, 1, 0, 0, 0.25};
+	const Levels regular = levelsOn(makeTorus(64, 32), 12);
+	EXPECT_GT(bitsMissing(makeSchedule(regular, 12, wide)), 2);
+	EXPECT_EQ(bitsMissing(makeSchedule(regular, 12, exact)), 0);
+	const Levels irregular = levelsOn(makeBumpySphere(900, 1), 12);
+	EXPECT_EQ(
+	    bitsMissing(makeSchedule(irregular, 12, exact)),
+	    bitsMissing(makeSchedule(irregular, 12, wide)));
+}
+
 TEST(Schedule, PrecisionFollowsTheLengthOfTheEdges)
 {
 	const Levels levels = levelsOn(makeBumpySphere(900, 1), 16);

@@ -30,6 +30,12 @@ int shiftFor(const CornerTable& table, const std::vector<LatticePoint>& position
 	return cell == 0 ? 0 : bitLength(cell) - 1;
 }
 
+bool endsRegular(const Levels& levels)
+{
+	const std::size_t n = levels.splits();
+	return n > 0 && isRegularSplit(levels.table(n - 1).vertexCount, levels.table(n).vertexCount);
+}
+
 /// Share of the inner edges whose two faces make a parallelogram, up to rounding.
 double closedParallelograms(const CornerTable& table, const std::vector<LatticePoint>& positions)
 {
@@ -72,18 +78,20 @@ double differentValues(const std::vector<LatticePoint>& positions)
 Schedule makeSchedule(const Levels& levels, int latticeBits, const ScheduleOptions& options)
 {
 	Schedule schedule;
-	const std::vector<double> errors = options.cellErrors > 0 || options.lastSplitErrors > 0
-	                                       ? levelErrors(levels)
-	                                       : std::vector<double>();
-	const auto shiftOf               = [&](std::size_t i) {
-        const bool last    = i + 1 >= levels.splits();
-        const int width    = last ? options.lastSplitSixteenths : options.cellSixteenths;
-        const double bound = last ? options.lastSplitErrors : options.cellErrors;
-        int most           = latticeBits - 1;
-        if (bound > 0)
-            for (most = 0; most < latticeBits - 1 && double(2u << most) <= bound * errors[i];)
-                ++most;
-        return std::min(most, shiftFor(levels.table(i), levels.positions, width));
+	const bool regular      = options.regularErrors > 0 && endsRegular(levels);
+	const double cellErrors = regular ? options.regularErrors : options.cellErrors;
+	const double lastErrors = regular ? options.regularErrors : options.lastSplitErrors;
+	const std::vector<double> errors =
+	    cellErrors > 0 || lastErrors > 0 ? levelErrors(levels) : std::vector<double>();
+	const auto shiftOf = [&](std::size_t i) {
+		const bool last    = i + 1 >= levels.splits();
+		const int width    = last ? options.lastSplitSixteenths : options.cellSixteenths;
+		const double bound = last ? lastErrors : cellErrors;
+		int most           = latticeBits - 1;
+		if (bound > 0)
+			for (most = 0; most < latticeBits - 1 && double(2u << most) <= bound * errors[i];)
+				++most;
+		return std::min(most, shiftFor(levels.table(i), levels.positions, width));
 	};
 	int shift          = shiftOf(0);
 	schedule.baseShift = shift;

@@ -31,6 +31,9 @@ struct ScheduleOptions
 	/// The same while the last split is coded. Cells never widen again: what narrows those of a
 	/// coarser level narrows these.
 	double lastSplitErrors = 0;
+	/// In place of both where the last split is regular, if not 0: predictions are so good there
+	/// that positions are cheaper exact from the start.
+	double regularErrors = 0;
 };
 
 /// A refinement: a split, or `bits` more bits of every coordinate.

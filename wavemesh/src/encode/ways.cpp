@@ -18,12 +18,13 @@ struct Cells
 	/// cellErrors and lastSplitErrors where coordinates repeat: they are cheaper exact from the
 	/// start than half known.
 	double errorsOfRepeats;
+	double regularErrors;
 };
-constexpr Cells kCellsForLevels {8, 8, 2, 2, 2};
-constexpr Cells kNarrowCells {2, 8, 2, 0, 0.25};
-constexpr Cells kCellsForBalanced {2, 8, 4, 0, 0.25};
-constexpr Cells kCellsBetween {6, 6, 0, 0, 0.5};
-constexpr Cells kCellsForSize {8, 8, 0, 0, 0};
+constexpr Cells kCellsForLevels {8, 8, 2, 2, 2, 0};
+constexpr Cells kNarrowCells {2, 8, 2, 0, 0.25, 0.25};
+constexpr Cells kCellsForBalanced {2, 8, 4, 0, 0.25, 0.25};
+constexpr Cells kCellsBetween {6, 6, 0, 0, 0.5, 0};
+constexpr Cells kCellsForSize {8, 8, 0, 0, 0, 0.25};
 
 Cells cellsFor(Optimize aim)
 {
@@ -47,6 +48,7 @@ std::vector<Coding> codings(int effort, const Cells& cells, std::size_t vertices
 	smooth.lastSplitErrors     = cells.lastSplitErrors;
 	exact.lastBits             = ScheduleOptions::kAll;
 	exact.cellErrors = exact.lastSplitErrors = cells.errorsOfRepeats;
+	smooth.regularErrors = exact.regularErrors = cells.regularErrors;
 	if (effort < 3) {
 		if (small)
 			return {{smooth, all}, {exact, repeats}};
@@ -61,6 +63,7 @@ std::vector<Coding> codings(int effort, const Cells& cells, std::size_t vertices
 		some.push_back({schedule, set});
 	};
 	const auto addWidths = [&some](ScheduleOptions schedule, PredictorSet set) {
+		schedule.regularErrors = 0;
 		for (const int width : {4, 12}) {
 			schedule.cellSixteenths = schedule.lastSplitSixteenths = width;
 			some.push_back({schedule, set});
@@ -73,10 +76,10 @@ std::vector<Coding> codings(int effort, const Cells& cells, std::size_t vertices
 		smooth.lastBits = 2;
 		addWidths(smooth, all);
 		for (const double errors : {2, 5}) {
-			smooth.cellErrors = errors;
-			some.push_back({smooth, all});
+			ScheduleOptions bounded = smooth;
+			bounded.cellErrors = bounded.regularErrors = errors;
+			some.push_back({bounded, all});
 		}
-		smooth.cellErrors = cells.errors;
 	}
 	for (const int lastBits : {1, 2, kAll})
 		add(smooth, lastBits, repeats);

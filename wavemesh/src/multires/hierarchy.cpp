@@ -130,16 +130,19 @@ std::vector<Coarsening> coarsenAll(
 	Quadrics quadrics;
 	const bool steered = steering.freeSteps != Steering::kNever;
 	double share       = steering.finestShare;
+	bool regular       = true; // so far
 	for (;;) {
 		const int i = int(steps.size());
 		Coarsening next;
-		bool free = i < steering.freeSteps;
-		if (free)
+		if (regular || i < steering.freeSteps)
 			next = coarsenFreely(*fine, points, criterion, stay, seams);
 		if (steered && i == 0)
 			quadrics = Quadrics(table, positions);
-		if (free && steered)
-			free = excessError(*fine, points, quadrics, next) <= kFreeExcess;
+		const bool isRegular =
+		    regular && isRegularSplit(next.coarse.vertexCount, fine->vertexCount);
+		const bool free =
+		    isRegular || (i < steering.freeSteps &&
+		                  (!steered || excessError(*fine, points, quadrics, next) <= kFreeExcess));
 		if (!free)
 			next = steer(*fine, points, stay, {&quadrics, share}, seams);
 		if (seams.any() && !worthItsSeams(next.coarse.vertexCount, fine->vertexCount)) {
@@ -148,7 +151,8 @@ std::vector<Coarsening> coarsenAll(
 		}
 		if (!worthwhile(next.coarse.vertexCount, fine->vertexCount))
 			break;
-		if (i == 0)
+		regular = isRegular;
+		if (i == 0 && !regular)
 			share = free ? steering.shareAfterFree : steering.share;
 		seams.carry(next);
 		if (steered)

@@ -13,15 +13,25 @@
 
 namespace wavemesh {
 
-/// Which steps are steered by the error they make, and how strictly.
+/// Is connectivity regular, nearly all faces split 1:4? Fewer coarse vertices there cannot be, a
+/// quarter and those of the boundaries; of irregular connectivity a third or more are left.
+inline bool isRegularSplit(Index coarse, Index fine)
+{
+	return 16 * std::uint64_t {coarse} <= 5 * std::uint64_t {fine};
+}
+
+/// Which steps are steered by the error they make, and how strictly. Regular ones never are, from
+/// the finest to the first that is not: they take next to no bits, and predict so well that no
+/// other choice of vertices is worth it.
 struct Steering
 {
 	static constexpr int kNever = std::numeric_limits<int>::max();
 	/// So many of the finest steps are left to connectivity and the geometrical criterion, unless
 	/// the error is much larger then.
 	int freeSteps = kNever;
-	/// ErrorCriterion::share of the finest step where it is steered, of coarser ones where the
-	/// finest is, and where it was left free.
+	/// ErrorCriterion::share of the finest step where it is steered, and of coarser ones: where the
+	/// finest is steered, and where it was left free. That of the finest is for all behind regular
+	/// ones.
 	double finestShare = 0.99, share = 0.9, shareAfterFree = 0.96;
 };
 
