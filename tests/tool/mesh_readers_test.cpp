@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The readers of PLY, OFF and STL beside VCGLib's importers, on files that these read right.
+// The readers of PLY, OBJ, OFF and STL beside VCGLib's importers, on files that these read right.
 #include "full_mesh.h"
 #include "mesh_files.h"
 #include "run_wmc.h"
@@ -9,12 +9,14 @@
 
 #include <vcg/complex/algorithms/clean.h>
 
+#include <wrap/io_trimesh/import_obj.h>
 #include <wrap/io_trimesh/import_off.h>
 #include <wrap/io_trimesh/import_ply.h>
 #include <wrap/io_trimesh/import_stl.h>
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 
 namespace wavemesh::test {
@@ -35,6 +37,13 @@ MeshData byVcg(const std::string& path)
 		EXPECT_EQ(io::ImporterPLY<FullMesh>::Open(m, path.c_str(), mask), 0);
 	else if (format == tool::Format::Off)
 		EXPECT_EQ(io::ImporterOFF<FullMesh>::Open(m, path.c_str(), mask), 0);
+	else if (format == tool::Format::Obj) {
+		const auto before = std::filesystem::current_path(); // it looks for materials there
+		std::filesystem::current_path(std::filesystem::path(path).parent_path());
+		EXPECT_FALSE(io::ImporterOBJ<FullMesh>::ErrorCritical(
+		    io::ImporterOBJ<FullMesh>::Open(m, path.c_str(), mask)));
+		std::filesystem::current_path(before);
+	}
 	else {
 		EXPECT_EQ(io::ImporterSTL<FullMesh>::Open(m, path.c_str(), mask), 0);
 		vcg::tri::Clean<FullMesh>::RemoveDuplicateVertex(m, false);
@@ -53,6 +62,12 @@ MeshData byVcg(const std::string& path)
 	         {Mask::IOM_WEDGTEXCOORD, kWedgeTexCoord | kTextures},
 	         {Mask::IOM_BITPOLYGONAL, kFauxEdges}})
 		channels |= mask & bit ? channel : 0u;
+	if (channels & kWedgeTexCoord) // said to have both: the same ones
+		channels &= ~unsigned(kVertexTexCoord);
+	// With materials an OBJ is said to have colours even if none of them has one.
+	const auto isFirst = [&](const tool::FullFace& f) { return f.cC() == m.face[0].cC(); };
+	if (format == tool::Format::Obj && std::all_of(m.face.begin(), m.face.end(), isFirst))
+		channels &= ~unsigned(kFaceColour);
 	for (auto& v : m.vert) // VCGLib leaves it as it finds it
 		v.T().N() = 0;
 	MeshData mesh = toMeshData(m);
@@ -370,6 +385,54 @@ TEST_F(MeshReaders, SquaresOfAnOffAreCutAsByVcg)
 	}
 	writeAll(path("a.off"), text);
 	expectFileAsByVcg(path("a.off"));
+}
+
+TEST_F(MeshReaders, ObjIsReadAsByVcg)
+{
+	const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0.1\nv 0 1 0\nv 2 0.5 1\n";
+	const std::string places = "vt 0 0\nvt 1 0\nvt 0.1 1 0\n";
+	std::string normals, colours;
+	for (int i = 0; i < 5; ++i) {
+		normals += "vn 0.1 " + std::to_string(i) + " 1\n";
+		colours += "v " + std::to_string(i) + " 0 0.5 0.1 " + std::to_string(0.2 * i) + " 1\n";
+	}
+	writeAll(
+	    path("b.mtl"), std::string("# none\nnewmtl wood\nKd 1 0.5 0.1\nmap_Kd wood.png\n"
+	                               "newmtl plain\nKd 0 0 1\nNs 10\nnewmtl two words\n"
+	                               "map_Kd stone.jpg\nnewmtl again\nmap_Kd wood.png\n"));
+	for (const std::string& text : std::vector<std::string> {
+	         points + "f 1 2 3\nf -1 -2 -3\ng a\nf 1 2 3 4\n\nf 5 4 3 2 1\n# end",
+	         points + "f 1 2 \\\n3\nq 0 1 2 3\nl 1 2\r\nf 1 2 3\r\n", colours + "f 1 2 3\n",
+	         "v 0 0 0 255 7 9\nv 1 0 0 1 2 3\nv 0 1 0\nv 0 1 1 0.5 0.5 1 0.25\nf 1 2 3\nf 2 3 4\n",
+	         points + normals + "f 1//2 2//1 3//5\nf 3//-1 4//-2 5//-3\nf 1 2 4\n",
+	         points + "vn 0 0 1\nf 1//1 2//1 3//1\n",
+	         points + places + "f 1/1 2/2 3/3\nf 1/-1 2/-2 3/-3 4/1\nf 3 4 5\n",
+	         points + places + normals + "f 1/1/1 2/2/3 3/3/2 5/1/5\nf 1//1 2//2 3//3\n",
+	         "mtllib b.mtl\n" + points + places +
+	             "f 1/1 2/2 3/3\nusemtl wood\nf 2/1 3/2 4/3\nusemtl two words\nf 1/1 3/2 4/3\n"
+	             "usemtl again\nf 5/1 3/2 4/3 2/3\nusemtl nowhere\nf 1/1 4/2 5/3\nusemtl plain\n"
+	             "f 2/1 4/2 5/3\n",
+	         "mtllib b.mtl\n" + points + "usemtl wood\nf 1 2 3\nusemtl plain\nf 2 3 4\n",
+	         "mtllib b.mtl\nusemtl wood\n" + points + "f 1 2 3\nf 2 3 4\n",
+	         "mtllib none.mtl\n" + points + places + "usemtl wood\nf 1/1 2/2 3/3\n"}) {
+		SCOPED_TRACE(text);
+		for (const std::string name : {"a.obj", "b.obj"}) { // with b.mtl of the same name
+			writeAll(path(name), text);
+			expectFileAsByVcg(path(name));
+		}
+	}
+}
+
+TEST_F(MeshReaders, MaterialsThatAreCutOffDoNotCrash)
+{
+	for (const std::string text :
+	     {"newmtl", "newmtl a\nd\nTr\nNs\nillum\nKd\nmap_Kd", "newmtl a\\", "\\\n", ""}) {
+		writeAll(path("a.mtl"), text);
+		writeAll(
+		    path("a.obj"), std::string("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+		                               "#MRGB ffffffff\nusemtl a\nf 1/1 2/1 3/1 # of three\n"));
+		EXPECT_EQ(tool::loadMesh(path("a.obj"), kAll).triangles.size(), 1u);
+	}
 }
 
 TEST_F(MeshReaders, StlIsReadAsByVcg)

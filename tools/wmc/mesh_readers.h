@@ -30,8 +30,9 @@ MeshData readOff(const Bytes& file, unsigned channels, const Progress& progress)
 /// Text or binary. Corners at the same place become one vertex.
 MeshData readStl(const Bytes& file);
 
-/// By VCGLib, which wants the file itself, for its materials. It trusts indices and counts, so the
-/// file is looked at before.
+/// Coordinates, colours and normals of vertices, texture coordinates of corners, colours of
+/// materials as those of faces. What it says is taken as VCGLib takes it.
+/// @param path  of the file, for its materials
 MeshData
 readObj(const Bytes& file, const std::string& path, unsigned channels, const Progress& progress);
 

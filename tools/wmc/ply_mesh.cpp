@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 namespace wavemesh::tool {
@@ -209,6 +210,11 @@ private:
 		return sinks;
 	}
 
+	void keep(std::vector<Sink> sinks)
+	{
+		std::move(sinks.begin(), sinks.end(), std::back_inserter(sinks_));
+	}
+
 	void readVertices(const Element& e)
 	{
 		Sinks sinks = sinksFor(AttributeOf::Vertex, e);
@@ -219,7 +225,7 @@ private:
 			for (Sink& s : sinks.wanted)
 				s.append(row, {});
 		});
-		std::move(sinks.wanted.begin(), sinks.wanted.end(), std::back_inserter(sinks_));
+		keep(std::move(sinks.wanted));
 	}
 
 	/// A fan, of which each triangle has all that the polygon has.
@@ -247,7 +253,7 @@ private:
 			inside.resize(mesh_.triangles.size());
 			sinks.wanted.push_back(std::move(faux));
 		}
-		std::move(sinks.wanted.begin(), sinks.wanted.end(), std::back_inserter(sinks_));
+		keep(std::move(sinks.wanted));
 	}
 
 	/// Every corner but the first two makes a triangle; -1 begins a new strip.
@@ -335,14 +341,14 @@ private:
 			return rank(a) < rank(b);
 		});
 		for (Sink& s : sinks_) {
-			Attribute& a = s.attribute;
-			if (s.isBroken)
-				dropped(a, "list ");
-			else if (mesh_.attributes.size() == kMostAttributes)
-				dropped(a);
-			if (s.isBroken || mesh_.attributes.size() == kMostAttributes ||
-			    (s.group == kOwn && a.values.empty()))
+			Attribute& a       = s.attribute;
+			const bool ofFaces = a.of != AttributeOf::Vertex && !mesh_.triangles.empty();
+			if (a.values.empty() && (s.group == kOwn || ofFaces)) // of no row, or of strips
 				continue;
+			if (s.isBroken || mesh_.attributes.size() == kMostAttributes) {
+				dropped(a, s.isBroken ? "list " : "");
+				continue;
+			}
 			// A text may have anything.
 			if (s.group == kOwn && a.type == NumberType::Integer &&
 			    !std::all_of(a.values.begin(), a.values.end(), isWholeNumber))
