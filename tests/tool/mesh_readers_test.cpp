@@ -324,6 +324,48 @@ TEST_F(MeshReaders, TriangleStripsAreCutAsByVcg)
 	expectAsByVcg(odd.row("i", {9, 0, 1, 2, 3, -1, 4, 2, 1, 0}));
 }
 
+TEST_F(MeshReaders, StripsBesideFacesAreNamedAndBesideNoneAreRead)
+{
+	for (const int faces : {0, 1}) {
+		PlyFile f = fivePoints();
+		f.line("element face " + std::to_string(faces));
+		f.line("property list uchar int vertex_indices").line("property uchar red");
+		f.line("property uchar green").line("property uchar blue").line("property int part");
+		f.line("element tristrips 1").line("property list int int vertex_indices");
+		addPoints(f, "f", nothing);
+		if (faces > 0)
+			f.row("biiibbbi", {3, 0, 1, 2, 7, 8, 9, 4});
+		f.row("i", {4, 0, 1, 2, 3});
+		writeAll(path("a.ply"), f.bytes("ascii"));
+		std::vector<std::string> notRead;
+		const MeshData mesh = tool::loadMesh(path("a.ply"), kAllChannels, &notRead);
+		EXPECT_EQ(mesh.triangles.size(), faces > 0 ? 1u : 2u);
+		EXPECT_EQ(mesh.attributes.size(), faces > 0 ? 2u : 0u);
+		EXPECT_EQ(notRead.size(), faces > 0 ? 1u : 0u);
+		EXPECT_EQ(runWmc({"encode", path("a.ply"), path("a.wmc")}).code, 0);
+	}
+}
+
+TEST_F(MeshReaders, MoreAttributesThanAFileMayHaveAreNamed)
+{
+	std::string more;
+	for (int i = 0; i < 70; ++i)
+		more += "property float p" + std::to_string(i) + "\n";
+	PlyFile f = fivePoints("float", more + "property float quality\n");
+	f.line("element face 1").line("property list uchar int vertex_indices");
+	f.line("property int part");
+	addPoints(f, "f", [](int i) { return std::vector<double>(71, i); });
+	f.row("biiiiii", {5, 0, 1, 2, 3, 4, 1});
+	writeAll(path("a.ply"), f.bytes("binary_little_endian"));
+	std::vector<std::string> notRead;
+	const MeshData mesh = tool::loadMesh(path("a.ply"), kAllChannels, &notRead);
+	ASSERT_EQ(mesh.attributes.size(), 64u);
+	EXPECT_EQ(mesh.attributes[0].kind, AttributeKind::Quality);
+	EXPECT_EQ(mesh.attributes[1].kind, AttributeKind::FauxEdges);
+	EXPECT_EQ(notRead.size(), 9u);
+	EXPECT_EQ(runWmc({"encode", path("a.ply"), path("a.wmc")}).code, 0);
+}
+
 TEST_F(MeshReaders, RangeGridsAreCutAsByVcg)
 {
 	PlyFile f = fivePoints();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// A mesh out of the bytes of a file, by format. Polygons are cut into triangles, and their edges
-/// inside are kFauxEdges. All throw Failure with what is wrong, without the file's name.
+/// inside are FauxEdges. All throw Failure with what is wrong, without the file's name.
 #pragma once
 
 #include "file_io.h"
@@ -13,6 +13,13 @@
 #include <vector>
 
 namespace wavemesh::tool {
+
+/// Of triangle k, 1..n - 2, in the fan of a polygon with n corners: its first corner, k and k + 1.
+/// @return as in AttributeKind::FauxEdges
+constexpr int edgesInside(std::size_t k, std::size_t n)
+{
+	return (k > 1 ? 1 : 0) + (k + 2 < n ? 4 : 0);
+}
 
 /// Triangles of polygons, triangle strips or a range grid; polygons are fans. Of a property for
 /// which there is no channel, numbers and lists of three become attributes of its name.

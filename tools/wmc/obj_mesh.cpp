@@ -147,16 +147,14 @@ private:
 			face.push_back(cornerOf(words[i], isZeroBased));
 		hasPolygons_ = hasPolygons_ || n > 3;
 		for (std::size_t k = 1; k + 1 < n; ++k) {
-			const Corner *a = &face[0], *b = &face[k], *c = &face[k + 1];
-			if (a->vertex == b->vertex || b->vertex == c->vertex || c->vertex == a->vertex)
-				throw Failure(lines_.where() + ": a face that has a vertex twice");
-			mesh_.triangles.emplace_back();
+			auto& t = mesh_.triangles.emplace_back();
 			for (std::size_t i = 0; i < 3; ++i) {
-				const Corner* corner      = i == 0 ? a : i == 1 ? b : c;
-				mesh_.triangles.back()[i] = static_cast<std::uint32_t>(corner->vertex);
-				corners_.push_back(*corner);
+				corners_.push_back(face[i == 0 ? 0 : k + i - 1]);
+				t[i] = static_cast<std::uint32_t>(corners_.back().vertex);
 			}
-			inside_.values.push_back((k > 1 ? 1 : 0) + (k + 2 < n ? 4 : 0));
+			if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+				throw Failure(lines_.where() + ": a face that has a vertex twice");
+			inside_.values.push_back(edgesInside(k, n));
 			textures_.push_back(materials_[material_].texture);
 			faceColours_.values.insert(faceColours_.values.end(), colour_.begin(), colour_.end());
 		}
@@ -249,10 +247,10 @@ private:
 	void addAttributes()
 	{
 		// Without materials all are grey.
-		const auto& colours    = faceColours_.values;
-		const bool isOneColour = std::equal(
-		    colours.begin() + std::min<std::ptrdiff_t>(4, std::ptrdiff_t(colours.size())),
-		    colours.end(), colours.begin());
+		const auto& colours = faceColours_.values;
+		bool isOneColour    = true;
+		for (std::size_t i = 4; i < colours.size() && isOneColour; ++i)
+			isOneColour = colours[i] == colours[i - 4];
 		const auto add = [&](bool has, unsigned channel, Attribute& a) {
 			if (has && (channels_ & channel))
 				mesh_.attributes.push_back(std::move(a));

@@ -170,7 +170,7 @@ private:
 		has_ |= face.size() > 3 ? kFauxEdges : 0u;
 		for (std::size_t k = 1; k + 1 < face.size(); ++k) {
 			mesh_.triangles.push_back({face[0], face[k], face[k + 1]});
-			inside_.values.push_back((k > 1 ? 1 : 0) + (k + 2 < face.size() ? 4 : 0));
+			inside_.values.push_back(edgesInside(k, face.size()));
 		}
 		const std::size_t more = words().size() - at_;
 		has_ |= more > 0 ? kFaceColour : 0u;

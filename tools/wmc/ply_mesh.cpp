@@ -201,7 +201,8 @@ private:
 			if (s.group == kPlace)
 				sinks.place = s.from;
 			else if (channels_ & channelOf(of, s.group)) {
-				if (sinks.wanted.size() < kMostAttributes && s.attribute.name.size() < 256)
+				if (s.group != kOwn ||
+				    (sinks.wanted.size() < kMostAttributes && s.attribute.name.size() < 256))
 					sinks.wanted.push_back(std::move(s));
 				else
 					dropped(s.attribute);
@@ -246,7 +247,7 @@ private:
 				if (face.size() == 3)
 					continue;
 				inside.resize(mesh_.triangles.size());
-				inside.back() = (k > 1 ? 1 : 0) + (k + 2 < face.size() ? 4 : 0);
+				inside.back() = edgesInside(k, face.size());
 			}
 		});
 		if (!inside.empty() && (channels_ & kFauxEdges)) {
