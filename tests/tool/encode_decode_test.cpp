@@ -260,6 +260,20 @@ TEST_F(WmcTest, LimitsRefuseWhatIsLarger)
 	    0);
 }
 
+TEST_F(WmcTest, NegativeLimitsAreRefused)
+{
+	const std::string wmc = encoded("a", makeOctahedron());
+	for (const char* option :
+	     {"--max-vertices", "--max-faces", "--max-attribute-values", "--max-level-share",
+	      "--max-bytes"}) {
+		const RunResult r = runWmc({"decode", wmc, path("b.ply"), option, "-1"});
+		EXPECT_EQ(r.code, 2) << option;
+		EXPECT_NE(r.err.find("-1 is less than 0"), std::string::npos) << r.err;
+	}
+	for (const char* samples : {"-1", "-18446744073709551615", "0"})
+		EXPECT_EQ(runWmc({"report", path("a.obj"), "--samples", samples}).code, 2) << samples;
+}
+
 TEST_F(WmcTest, OptionsReachTheFile)
 {
 	const MeshData mesh = makeStarPrism(16, 20);

@@ -175,6 +175,26 @@ TEST_F(Verify, FailsForACutFile)
 	EXPECT_EQ(r.errorLines(), 1u);
 }
 
+TEST_F(Verify, NamesAttributesOfTheOriginalThatAreNotInTheFile)
+{
+	writeAll(
+	    path("a.ply"), "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+	                   "property float y\nproperty float z\nproperty float quality\n"
+	                   "property float heat\nelement face 1\n"
+	                   "property list uchar int vertex_indices\nend_header\n"
+	                   "0 0 0 1 2\n1 0 0 3 4\n0 1 0 5 6\n3 0 1 2\n");
+	ASSERT_EQ(runWmc({"encode", path("a.ply"), path("a.wmc"), "--attributes", "quality"}).code, 0);
+	const RunResult r = runWmc({"verify", path("a.ply"), path("a.wmc"), "--json"});
+	EXPECT_EQ(r.code, 0) << r.err;
+	EXPECT_EQ(r.json()["not_in_file"], nlohmann::json {"vertex custom 'heat'"});
+	EXPECT_NE(
+	    runWmc({"verify", path("a.ply"), path("a.wmc")}).out.find("absent  vertex custom 'heat'"),
+	    std::string::npos);
+	ASSERT_EQ(runWmc({"encode", path("a.ply"), path("a.wmc")}).code, 0);
+	EXPECT_TRUE(
+	    runWmc({"verify", path("a.ply"), path("a.wmc"), "--json"}).json()["not_in_file"].empty());
+}
+
 TEST_F(Verify, FailsForBytesAfterTheEnd)
 {
 	FileBytes wmc = readAll(encoded("a", makeBumpySphere(500, 1)));

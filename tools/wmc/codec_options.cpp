@@ -38,6 +38,13 @@ CLI::Validator aboveZero()
 
 } // namespace
 
+CLI::Validator notNegative()
+{
+	return {
+	    [](std::string& text) { return text[0] == '-' ? text + " is less than 0" : std::string(); },
+	    ""};
+}
+
 void CodecOptions::addTo(CLI::App& command)
 {
 	const std::string group = "Codec";

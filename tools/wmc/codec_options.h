@@ -16,6 +16,9 @@
 namespace wavemesh::tool {
 
 /// Options of encode, report and bench, as typed.
+/// For options that are unsigned: CLI11 takes -1 for the largest of all.
+CLI::Validator notNegative();
+
 struct CodecOptions
 {
 	int bits         = 12;

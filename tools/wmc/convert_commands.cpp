@@ -154,7 +154,9 @@ struct Info
 void addLimit(
     CLI::App& command, const std::string& option, std::uint64_t& limit, const std::string& more)
 {
-	command.add_option(option, limit, "Refuse files that declare " + more)->capture_default_str();
+	command.add_option(option, limit, "Refuse files that declare " + more)
+	    ->check(notNegative())
+	    ->capture_default_str();
 }
 
 void addJson(CLI::App& command, bool& json)
@@ -193,9 +195,7 @@ void addDecode(CLI::App& app, Command& chosen)
 	    ->add_option(
 	        "--max-bytes", c->maxBytes,
 	        "Decode as if the file ended after this many bytes (default: all of it)")
-	    ->check([](const std::string& text) {
-		    return text[0] == '-' ? text + " is less than 0" : std::string();
-	    });
+	    ->check(notNegative());
 	addLimit(*command, "--max-vertices", c->limits.maxVertices, "more vertices");
 	addLimit(*command, "--max-faces", c->limits.maxFaces, "more faces");
 	addLimit(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// VCGLib's mesh in double precision with every channel that mesh files have: what they are read
-/// into and written from. Texture coordinates are floats, as VCGLib's importers want them.
+/// VCGLib's mesh in double precision with every channel that mesh files have: what they are written
+/// from. Texture coordinates are floats, as VCGLib's files have them.
 /// Expensive to include; keep it out of headers.
 #pragma once
 

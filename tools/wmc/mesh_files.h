@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Meshes from and to PLY, OBJ, OFF and STL, through VCGLib and in double precision.
+/// Meshes from and to PLY, OBJ, OFF and STL, in double precision.
 #pragma once
 
 #include <wavemesh/mesh_data.h>

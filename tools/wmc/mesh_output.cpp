@@ -5,7 +5,7 @@
 #include "file_io.h"
 #include "full_mesh.h"
 #include "mesh_files.h"
-#include "ply_properties.h"
+#include "ply_names.h"
 #include "polygons.h"
 
 #include <wavemesh/vcg_attributes.h>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ply_reader.h"
 
+#include "failure.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -28,31 +30,36 @@ bool findType(const std::string& name, Type& type)
 
 } // namespace
 
-std::string parseHead(const Bytes& file, Head& head)
+Head parseHead(const Bytes& file)
 {
 	const std::string text(
 	    reinterpret_cast<const char*>(file.data()), std::min<std::size_t>(file.size(), 1 << 16));
 	std::istringstream lines(text);
+	const Failure damaged("its head is damaged");
+	Head head;
 	std::string line;
-	bool isFirst = true;
+	bool hasFormat = false;
+	if (!std::getline(lines, line) || line.substr(0, line.find_last_not_of(" \t\r") + 1) != "ply")
+		throw Failure("it does not begin with 'ply'");
 	while (std::getline(lines, line)) {
 		std::istringstream words(line);
-		std::string key, a, b, c;
-		words >> key;
-		if (isFirst && key != "ply")
-			return "it does not begin with 'ply'";
-		isFirst = false;
-		if (key == "format") {
-			words >> a;
+		std::string key, a, b;
+		words >> key >> std::ws;
+		if (key == "format" && words >> a) {
+			hasFormat     = a == "ascii" || a == "binary_big_endian" || a == "binary_little_endian";
 			head.encoding = a == "ascii"               ? Head::Text
 			                : a == "binary_big_endian" ? Head::Big
 			                                           : Head::Little;
+		}
+		else if (key == "comment" || key == "obj_info") {
+			std::getline(words, a);
+			head.comments.push_back(a.substr(0, a.find_last_not_of(" \t\r") + 1));
 		}
 		else if (key == "element") {
 			Element e;
 			long long n = -1;
 			if (!(words >> e.name >> n) || n < 0 || n > 0x7fffffff)
-				return "its head is damaged";
+				throw damaged;
 			e.number = static_cast<std::uint64_t>(n);
 			head.elements.push_back(e);
 		}
@@ -61,131 +68,29 @@ std::string parseHead(const Bytes& file, Head& head)
 			words >> a;
 			p.isList = a == "list";
 			if (p.isList)
-				words >> b >> c;
+				words >> b >> a;
 			if (head.elements.empty() || !(words >> p.name) ||
-			    (p.isList && (!findType(b, p.count) || p.count.isFloating)) ||
-			    !findType(p.isList ? c : a, p.item))
-				return "its head is damaged";
+			    (p.isList && (!findType(b, p.count) || p.count.isFloating)) || !findType(a, p.item))
+				throw damaged;
 			head.elements.back().properties.push_back(p);
 		}
-		else if (key == "end_header") {
+		else if (key == "end_header" && hasFormat) {
+			for (const Element& e : head.elements)
+				if (e.properties.empty() && e.number > 0)
+					throw damaged;
 			head.size = lines.eof() ? text.size() : static_cast<std::size_t>(lines.tellg());
-			return {};
+			return head;
 		}
+		else if (!key.empty())
+			throw damaged;
 	}
-	return "its head does not end";
-}
-
-namespace {
-
-constexpr Type kUchar {1, false, false}, kInt {4, false, true};
-
-bool isSame(Type a, Type b)
-{
-	return a.bytes == b.bytes && a.isFloating == b.isFloating && a.isSigned == b.isSigned;
-}
-
-void append(Bytes& out, Type type, double value)
-{
-	std::uint64_t bits = 0;
-	if (type.isFloating && type.bytes == 4) {
-		const auto single = static_cast<float>(value);
-		std::memcpy(&bits, &single, sizeof single);
-	}
-	else if (type.isFloating)
-		std::memcpy(&bits, &value, sizeof value);
-	else // a text may have anything
-		bits = static_cast<std::uint64_t>(
-		    std::isnan(value) ? 0 : static_cast<std::int64_t>(std::clamp(value, -1e18, 1e18)));
-	for (int i = 0; i < type.bytes; ++i)
-		out.push_back(static_cast<std::uint8_t>(bits >> 8 * i));
-}
-
-bool hasUsualTypes(const Head& head)
-{
-	for (const Element& e : head.elements)
-		for (const Property& p : e.properties)
-			if (isFaceList(e, p) && !(isSame(p.count, kUchar) && isSame(p.item, kInt)))
-				return false;
-	return head.encoding != Head::Big;
-}
-
-/// The head's text with another encoding and other types of the lists of vertices.
-std::string usualHead(const Bytes& file, const Head& head)
-{
-	std::istringstream lines(
-	    std::string(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(head.size)));
-	std::string out, element;
-	for (std::string line; std::getline(lines, line);) {
-		std::istringstream words(line);
-		std::string key, a, name;
-		words >> key >> a;
-		if (key == "element")
-			element = a;
-		for (std::string word; words >> word;)
-			name = word;
-		const bool isVertices = name == "vertex_indices" || name == "vertex_index";
-		if (key == "format")
-			line = "format binary_little_endian 1.0";
-		else if (key == "property" && a == "list" && element == "face" && isVertices)
-			line = "property list uchar int vertex_indices";
-		else if (!line.empty() && line.back() == '\r')
-			line.pop_back();
-		out += line + "\n";
-	}
-	return out;
-}
-
-} // namespace
-
-Bytes withUsualTypes(const Bytes& file)
-{
-	Head head;
-	if (!parseHead(file, head).empty() || hasUsualTypes(head))
-		return {};
-	const std::string text = usualHead(file, head);
-	Bytes out(text.begin(), text.end());
-	Numbers numbers(file, head);
-	for (const Element& e : head.elements)
-		for (std::uint64_t row = 0; row < e.number; ++row)
-			for (const Property& p : e.properties) {
-				const bool isFace = isFaceList(e, p);
-				double n = 1, value = 0;
-				if (p.isList) {
-					if (!numbers.next(p.count, n) || n < 0 || (isFace && n > 255))
-						return {};
-					append(out, isFace ? kUchar : p.count, n);
-				}
-				for (; n >= 1; --n) {
-					if (!numbers.next(p.item, value))
-						return {};
-					append(out, isFace ? kInt : p.item, value);
-				}
-			}
-	return out;
-}
-
-std::vector<std::string> textureNames(const Bytes& file, const Head& head)
-{
-	std::istringstream lines(
-	    std::string(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(head.size)));
-	std::vector<std::string> names;
-	for (std::string line; std::getline(lines, line);) {
-		std::istringstream words(line);
-		std::string comment, key, name;
-		words >> comment >> key >> std::ws;
-		if (comment != "comment" || key != "TextureFile" || !std::getline(words, name))
-			continue;
-		name.erase(name.find_last_not_of(" \t\r") + 1);
-		names.push_back(name);
-	}
-	return names;
+	throw Failure("its head does not end");
 }
 
 bool Numbers::next(Type type, double& value)
 {
 	if (head_.encoding == Head::Text)
-		return nextWord(value);
+		return nextWord(type, value);
 	const auto n = static_cast<std::size_t>(type.bytes);
 	if (file_.size() - at_ < n)
 		return false;
@@ -210,23 +115,25 @@ bool Numbers::next(Type type, double& value)
 	return true;
 }
 
-bool Numbers::skip(std::uint64_t n, Type type)
+bool Numbers::nextRow(const Element& element, std::vector<std::vector<double>>& row)
 {
-	double ignored = 0;
-	if (head_.encoding == Head::Text) {
-		while (n-- > 0)
-			if (!nextWord(ignored))
+	row.resize(element.properties.size());
+	for (std::size_t i = 0; i < row.size(); ++i) {
+		const Property& p   = element.properties[i];
+		const int leastSize = head_.encoding == Head::Text ? 1 : p.item.bytes;
+		double count        = 1;
+		if (p.isList && (!next(p.count, count) ||
+		                 !(count >= 0 && count * leastSize <= double(file_.size() - at_))))
+			return false;
+		row[i].resize(static_cast<std::size_t>(count));
+		for (double& x : row[i])
+			if (!next(p.item, x))
 				return false;
-		return true;
 	}
-	const auto bytes = static_cast<std::uint64_t>(type.bytes);
-	if (n > (file_.size() - at_) / bytes)
-		return false;
-	at_ += static_cast<std::size_t>(n * bytes);
 	return true;
 }
 
-bool Numbers::nextWord(double& value)
+bool Numbers::nextWord(Type type, double& value)
 {
 	auto isSpace = [&](std::uint8_t c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
 	while (at_ < file_.size() && isSpace(file_[at_]))
@@ -240,7 +147,8 @@ bool Numbers::nextWord(double& value)
 	}
 	word[n]   = 0;
 	char* end = word;
-	value     = std::strtod(word, &end);
+	value     = type.isFloating && type.bytes == 4 ? double(std::strtof(word, &end))
+	                                               : std::strtod(word, &end);
 	return n > 0 && end != word;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// PLY without VCGLib: the head, and the numbers behind it one after the other.
+/// The head of a PLY, and the numbers behind it one after the other. Never reads past the file.
 #pragma once
 
 #include "file_io.h"
@@ -36,11 +36,12 @@ struct Head
 {
 	enum { Text, Little, Big } encoding = Text;
 	std::vector<Element> elements;
+	std::vector<std::string> comments; ///< without the word; obj_info too
 	std::size_t size = 0;
 };
 
-/// Empty, or what is wrong.
-std::string parseHead(const Bytes& file, Head& head);
+/// Throws Failure.
+Head parseHead(const Bytes& file);
 
 /// Numbers one after the other, whatever they are written in.
 class Numbers
@@ -48,29 +49,19 @@ class Numbers
 public:
 	Numbers(const Bytes& file, const Head& head) : file_(file), head_(head), at_(head.size) {}
 
+	/// False at the end of the file, or if it is no number.
 	bool next(Type type, double& value);
-	bool skip(std::uint64_t n, Type type);
+	/// A row of `element`: of each property its number, or those of its list. False if there is no
+	/// such row any more.
+	bool nextRow(const Element& element, std::vector<std::vector<double>>& row);
+	double fraction() const { return double(at_) / double(file_.size()); }
 
 private:
-	bool nextWord(double& value);
+	bool nextWord(Type type, double& value);
 
 	const Bytes& file_;
 	const Head& head_;
 	std::size_t at_;
 };
-
-/// The file as VCGLib reads it right: little-endian, with lists of vertices of the types it
-/// expects. Empty if it is so already, or cannot be.
-/// @pre whatIsWrongWithPly(file) is empty
-Bytes withUsualTypes(const Bytes& file);
-
-/// Names of textures, blanks inside included.
-std::vector<std::string> textureNames(const Bytes& file, const Head& head);
-
-/// Is it the list of a face's vertices?
-inline bool isFaceList(const Element& e, const Property& p)
-{
-	return p.isList && e.name == "face" && (p.name == "vertex_indices" || p.name == "vertex_index");
-}
 
 } // namespace wavemesh::tool::ply

@@ -10,6 +10,7 @@
 
 #include <metrics/rate_distortion.h>
 
+#include <cmath>
 #include <memory>
 
 namespace wavemesh::tool {
@@ -72,6 +73,12 @@ struct Report
 		const auto wanted = configurations();
 		MeshData mesh     = loadMesh(in, attributes.channels());
 		attributes.setBits(mesh, codec.exact);
+		for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+			for (const double x : mesh.positions[v])
+				if (!std::isfinite(x))
+					throw Failure(
+					    in + ": vertex " + std::to_string(v) +
+					    " has a coordinate that is not finite: there are no distances to measure");
 		if (mesh.triangles.empty())
 			throw Failure(in + ": there are no faces in it to measure distances from");
 		const std::size_t n =
@@ -220,6 +227,7 @@ void addReport(CLI::App& app, Command& chosen)
 	    ->add_option(
 	        "--samples", c->samples,
 	        "Points on each surface to measure at (default: as many as faces, at least 100000)")
+	    ->check(notNegative())
 	    ->check(CLI::Range(std::size_t {1}, std::size_t {1000000000}));
 	command->add_option("--csv", c->csv, "Also write the table to this file");
 	command->add_flag("--json", c->json, "Print one JSON object on stdout and nothing else");

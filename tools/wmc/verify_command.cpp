@@ -2,6 +2,7 @@
 // verify: holds a file's promises against the original.
 #include "any_isomorphism.h"
 #include "attribute_check.h"
+#include "attribute_options.h"
 #include "codec_options.h"
 #include "commands.h"
 #include "console.h"
@@ -13,6 +14,7 @@
 
 #include <wavemesh/vcg_attributes.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -237,6 +239,20 @@ void checkMesh(
 		promises.back().broken = "vertices come in another order";
 }
 
+/// Attributes of the original that the file was not given.
+std::vector<std::string> leftOut(const MeshData& original, const MeshData& decoded)
+{
+	std::vector<std::string> names;
+	for (const Attribute& a : original.attributes) {
+		const auto isIt = [&](const Attribute& b) {
+			return a.of == b.of && a.kind == b.kind && a.name == b.name;
+		};
+		if (std::none_of(decoded.attributes.begin(), decoded.attributes.end(), isIt))
+			names.push_back(nameOf(a.of, a.kind, a.name));
+	}
+	return names;
+}
+
 struct Verify
 {
 	std::string original, in;
@@ -272,10 +288,15 @@ struct Verify
 			promises.push_back({"prefixes", checkPrefixes(file, *info)});
 			checkMesh(mesh, decoded.mesh, *info, promises);
 		}
-		return report(promises, *info, seconds);
+		const auto left = status.ok() ? leftOut(mesh, decoded.mesh) : std::vector<std::string> {};
+		return report(promises, left, *info, seconds);
 	}
 
-	int report(const std::vector<Promise>& promises, const StreamInfo& info, double seconds) const
+	int report(
+	    const std::vector<Promise>& promises,
+	    const std::vector<std::string>& left,
+	    const StreamInfo& info,
+	    double seconds) const
 	{
 		const Promise* broken = nullptr;
 		for (const Promise& p : promises)
@@ -289,13 +310,18 @@ struct Verify
 				    {{"name", p.name},
 				     {"ok", p.broken.empty()},
 				     {"broken", p.broken.empty() ? Json() : Json(p.broken)}});
+			j["not_in_file"] = left;
 			j.update(toJson(info));
 			j["decode_seconds"] = seconds;
 			printJson(j);
 		}
-		else
+		else {
 			for (const Promise& p : promises)
 				std::printf("%-7s %s\n", p.broken.empty() ? "ok" : "BROKEN", p.name.c_str());
+			for (const std::string& name : left)
+				std::printf(
+				    "absent  %s: in the original, not in the file\n", visible(name).c_str());
+		}
 		if (broken)
 			printError(in + ": " + broken->name + ": " + broken->broken);
 		return broken ? kRefused : kFine;
@@ -317,7 +343,8 @@ void addVerify(CLI::App& app, Command& chosen)
 	    "numbering of vertices and faces, every level decodes, is manifold and as declared, and\n"
 	    "every declared prefix holds its level whole. 1 otherwise. Attributes must be the "
 	    "original's,\n"
-	    "bit for bit, or within half the step that the file states.");
+	    "bit for bit, or within half the step that the file states. Those that the file was not\n"
+	    "given are named (not_in_file in JSON) and break nothing.");
 	command->callback([&chosen, c] { chosen = [c] { return c->run(); }; });
 }
 
