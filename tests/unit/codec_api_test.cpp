@@ -280,7 +280,7 @@ TEST(Progress, CancelsEveryLevel_AndNoMeshIsLeft)
 		EncodeOptions o;
 		o.mode          = mode;
 		const auto file = encode(mesh, o);
-		for (int level = 1; level <= file->info.finestLevel(); ++level) {
+		for (int level = 0; level <= file->info.finestLevel(); ++level) {
 			auto decoder = Decoder::open(file->bytes.data(), file->bytes.size());
 			while (decoder->level() + 1 < level)
 				ASSERT_TRUE(decoder->advance().ok());
@@ -288,6 +288,37 @@ TEST(Progress, CancelsEveryLevel_AndNoMeshIsLeft)
 			EXPECT_EQ(s.code, StatusCode::Cancelled) << level;
 			EXPECT_TRUE(decoder->mesh().positions.empty()) << level;
 		}
+	}
+}
+
+TEST(Progress, CancelsALargeBaseMeshAndItsAttributesAtAnyCall)
+{
+	MeshData mesh; // of triangles that cannot be coarsened
+	for (std::uint32_t v = 0; v < 3 * 5000; ++v)
+		mesh.positions.push_back({double(v % 101), double(v % 103), double(v % 107)});
+	for (std::uint32_t f = 0; f < 5000; ++f)
+		mesh.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+	Attribute colour;
+	colour.values.assign(mesh.positions.size(), 1);
+	for (std::size_t v = 0; v < colour.values.size(); ++v)
+		colour.values[v] = double(v % 109);
+	mesh.attributes = {colour, colour};
+	const auto file = encode(mesh);
+	ASSERT_TRUE(file.ok());
+	ASSERT_EQ(file->info.levels[0].vertices, mesh.positions.size());
+	std::vector<double> asked;
+	auto whole = Decoder::open(file->bytes.data(), file->bytes.size());
+	ASSERT_TRUE(whole->advance([&](double x) { return asked.push_back(x), true; }).ok());
+	ASSERT_GE(asked.size(), 7u);
+	EXPECT_TRUE(std::is_sorted(asked.begin(), asked.end()));
+	EXPECT_LT(asked[4], 0.9) << "there are attributes, too";
+	for (std::size_t call = 0; call < asked.size(); ++call) {
+		auto decoder      = Decoder::open(file->bytes.data(), file->bytes.size());
+		std::size_t calls = 0;
+		EXPECT_EQ(
+		    decoder->advance([&](double) { return calls++ < call; }).code, StatusCode::Cancelled);
+		EXPECT_EQ(calls, call + 1);
+		EXPECT_TRUE(decoder->mesh().positions.empty());
 	}
 }
 
