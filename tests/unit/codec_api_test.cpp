@@ -6,6 +6,8 @@
 #include "mesh_families.h"
 #include "wmc_files.h"
 
+#include <wavemesh/detail_pyramid.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,6 +24,16 @@ StatusCode codeOf(const MeshData& mesh, const EncodeOptions& o = {})
 		EXPECT_FALSE(file.status().what.empty());
 	}
 	return file.status().code;
+}
+
+/// Before whatever the codec's own files initialise, if they come later in the program.
+const Result<EncodedMesh> kBeforeMain = encode(makeTorus(12, 9));
+
+TEST(Encode, GivesTheSameFileBeforeMain)
+{
+	ASSERT_TRUE(kBeforeMain.ok());
+	EXPECT_EQ(kBeforeMain->bytes, encode(makeTorus(12, 9))->bytes);
+	EXPECT_TRUE(decode(kBeforeMain->bytes.data(), kBeforeMain->bytes.size()).ok());
 }
 
 TEST(Encode, RefusesOptionsOutOfRange)
@@ -44,6 +56,7 @@ TEST(Encode, RefusesOptionsOutOfRange)
 	for (const double x : {0.0, -1.0, kNaN})
 		EXPECT_EQ(with([&](auto& o) { o.wgcDeviation = x; }), StatusCode::InvalidArgument) << x;
 	EXPECT_EQ(with([](auto& o) { o.mode = static_cast<Mode>(7); }), StatusCode::InvalidArgument);
+	EXPECT_EQ(with([](auto& o) { o.wgc = static_cast<Wgc>(3); }), StatusCode::InvalidArgument);
 	EXPECT_EQ(with([](auto&) {}), StatusCode::Ok);
 }
 
@@ -366,6 +379,48 @@ TEST(Progress, OfDecode_IsMonotoneAndCancels)
 		ASSERT_EQ(back.status().code, StatusCode::Cancelled);
 		ASSERT_FALSE(back.hasValue());
 	}
+}
+
+// ---- memory ----
+
+/// Has each allocation fail in turn. @return how many there were until `work` was ok
+template <class Work>
+std::size_t failEachAllocation(const Work& work)
+{
+	for (std::size_t n = 0;; ++n) {
+		AllocationFailure failure(n);
+		const StatusCode code = work();
+		failure.end();
+		if (code == StatusCode::Ok)
+			return n;
+		EXPECT_EQ(code, StatusCode::OutOfMemory) << n;
+		if (n == 100'000)
+			return 0;
+	}
+}
+
+TEST(Memory, ThatRunsOutAnywhereIsAStatus)
+{
+	const MeshData mesh = makeTorus(7, 5);
+	EncodeOptions o;
+	o.effort        = 1;
+	const auto file = encode(mesh, o);
+	const auto& b   = file->bytes;
+	EXPECT_GT(failEachAllocation([&] { return readInfo(b.data(), b.size()).status().code; }), 2u);
+	EXPECT_GT(
+	    failEachAllocation([&] { return Decoder::open(b.data(), b.size()).status().code; }), 3u);
+	const auto byLevels = [&] {
+		auto decoder = Decoder::open(b.data(), b.size());
+		Status s     = decoder.status();
+		while (s.ok() && decoder->level() < decoder->info().finestLevel())
+			s = decoder->advance([](double) { return true; });
+		return s.code;
+	};
+	EXPECT_GT(failEachAllocation(byLevels), 50u);
+	EXPECT_GT(failEachAllocation([&] { return decode(b.data(), b.size()).status().code; }), 50u);
+	EXPECT_GT(failEachAllocation([&] { return encode(mesh, o).status().code; }), 50u);
+	EXPECT_GT(failEachAllocation([&] { return Multiresolution::of(mesh).status().code; }), 50u);
+	EXPECT_GT(failEachAllocation([&] { return DetailPyramid::of(mesh).status().code; }), 50u);
 }
 
 // ---- limits ----

@@ -28,8 +28,8 @@ struct PlyProperties
 /// @pre whatIsWrongWithPly(file) is empty
 PlyProperties readPlyProperties(const Bytes& file);
 
-/// Channels of Channel (wavemesh/vcg_attributes.h) that VCGLib gets wrong: of which the file has a
-/// part only, or in types for which there is no room.
+/// Channels of VcgChannel (wavemesh/vcg_attributes.h) that VCGLib gets wrong: of which the file has
+/// a part only, or in types for which there is no room.
 unsigned channelsNotToTake(const Bytes& file);
 
 /// Has the name a meaning in a PLY of this mesh, for a vertex or a face?
