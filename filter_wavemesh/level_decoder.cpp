@@ -4,6 +4,7 @@
 #include <shared/plugin_support.h>
 
 #include <algorithm>
+#include <exception>
 #include <new>
 
 namespace wavemesh {
@@ -67,6 +68,10 @@ void LevelDecoder::work()
 		}
 		catch (const std::bad_alloc&) {
 			status = {StatusCode::OutOfMemory, "not enough memory for the level"};
+			came   = false;
+		}
+		catch (const std::exception& e) { // whoever waits must hear of it, on their own thread
+			status = {StatusCode::Internal, e.what()};
 			came   = false;
 		}
 		lock.lock();

@@ -33,7 +33,7 @@ OWN_LIMIT = 50000000                        # this decoder's own limit of vertic
 # 11.1 Outcomes
 # ----------------------------------------------------------------------------------------------------------------
 
-OUTCOMES = {"NotWmc": 10, "VersionTooNew": 11, "Truncated": 20, "Corrupt": 21, "ChecksumMismatch": 22,
+OUTCOMES = {"NotWmc": 10, "VersionTooNew": 11, "VersionTooOld": 12, "Truncated": 20, "Corrupt": 21, "ChecksumMismatch": 22,
             "LimitExceeded": 30}
 
 
@@ -204,8 +204,9 @@ def read_head(data):
     if chunk.type != "H":
         raise corrupt("the first chunk is not the head")
     payload = chunk.payload
-    if len(payload) >= 2 and (payload[0] != 0 or payload[1] != 5):
-        raise Outcome("VersionTooNew", "version %d.%d" % (payload[0], payload[1]))
+    if len(payload) >= 2 and payload[:2] != b"\x00\x05":
+        newer = payload[:2] > b"\x00\x05"
+        raise Outcome("VersionTooNew" if newer else "VersionTooOld", "version %d.%d" % (payload[0], payload[1]))
     if not chunk.whole:
         raise Outcome("Truncated", "in the head")
     head = read_fixed_fields(payload)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Decodes files with tests/reference_decoder.py and compares with what the codec makes of them.
 
-    reference_decoder_test.py WMC FOLDER_FOR_OUTPUT FILE.wmc...     with wmc: positions and faces of several levels
+    reference_decoder_test.py WMC FOLDER_FOR_OUTPUT FILE.wmc...     with wmc: positions and faces of every level
     reference_decoder_test.py --index INDEX.txt                     with the goldens' index: outcome, level, and every
                                                                     number of the mesh, attributes too, bit for bit
     reference_decoder_test.py --example FORMAT.md FILE.wmc          the example in the format's document: its bytes, and
@@ -42,21 +42,33 @@ def is_same(mesh, written):
     return repr(mesh) == repr(written)  # as text: numbers that are none are not equal to themselves
 
 
+class EveryLevel(reference.Decoder):
+    """Keeps the mesh of each level that it comes past"""
+
+    def __init__(self, data):
+        super().__init__(data)
+        self.meshes = []
+
+    def read_level(self, decoder, i):
+        whole = super().read_level(decoder, i)
+        if whole and i < self.head.J:
+            self.meshes.append(self.result())
+        return whole
+
+
 def differences(wmc, folder, path):
-    data = read_file(path)
-    last = reference.Decoder(data).head.J
-    for level in sorted({0, last // 2, last}):
+    decoder = EveryLevel(read_file(path))
+    try:
+        decoder.decode(decoder.head.J)
+    except reference.Outcome as outcome:
+        return "behind level %d: %s, %s" % (decoder.level, outcome.name, outcome.why)
+    for level, mesh in enumerate(decoder.meshes + [decoder.result()]):
         output = os.path.join(folder, os.path.basename(path) + ".obj")
         done = subprocess.run([wmc, "decode", path, output, "--level", str(level)], capture_output=True,
                               text=True, errors="backslashreplace")
         if done.returncode != 0:
             return "wmc: " + done.stderr
-        decoder = reference.Decoder(data)
-        try:
-            decoder.decode(level)
-        except reference.Outcome as outcome:
-            return "level %d: %s, %s" % (level, outcome.name, outcome.why)
-        if not is_same(decoder.result(), read_obj(output)):
+        if not is_same(mesh, read_obj(output)):
             return "level %d: another mesh" % level
     return None
 

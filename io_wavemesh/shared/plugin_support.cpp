@@ -44,6 +44,8 @@ QString explain(const Status& status)
 		return text + manifoldAdvice(text);
 	case StatusCode::VersionTooNew:
 		return text + " A newer Wavemesh is needed to read it.";
+	case StatusCode::VersionTooOld:
+		return text + " Save the original again, or open the file with the Wavemesh that wrote it.";
 	case StatusCode::OutOfMemory:
 		return text + " Open it at a coarser level, or close other layers.";
 	default:

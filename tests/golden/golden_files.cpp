@@ -312,6 +312,7 @@ std::vector<Golden> badOnes()
 	text.erase(text.begin() + 4); // the carriage return
 	add("text_mode", text, StatusCode::Corrupt);
 	add("newer_major", mended(0, 0, 1), StatusCode::VersionTooNew);
+	add("older_minor", mended(0, 1, 4), StatusCode::VersionTooOld);
 	add("bits_0", mended(0, 4, 0), StatusCode::Corrupt);
 	add("bits_25", mended(0, 4, 25), StatusCode::Corrupt);
 	add("unknown_mode", mended(0, 2, 7), StatusCode::Corrupt);

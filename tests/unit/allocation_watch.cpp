@@ -7,6 +7,7 @@
 namespace {
 
 std::size_t alive = 0, highest = 0, before = 0;
+std::size_t untilFailure = 0; ///< allocations, that one too; 0: none fails
 
 /// In front of each block: its size, padded to keep the alignment.
 constexpr std::size_t kHeader = alignof(std::max_align_t);
@@ -17,6 +18,8 @@ constexpr std::size_t kHeader = alignof(std::max_align_t);
 
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept
 {
+	if (untilFailure > 0 && --untilFailure == 0)
+		return nullptr;
 	auto* block = static_cast<char*>(std::malloc(size + kHeader));
 	if (!block)
 		return nullptr;
@@ -87,6 +90,21 @@ AllocationWatch::AllocationWatch()
 std::size_t AllocationWatch::peak() const
 {
 	return highest - before;
+}
+
+AllocationFailure::AllocationFailure(std::size_t after)
+{
+	untilFailure = after + 1;
+}
+
+AllocationFailure::~AllocationFailure()
+{
+	end();
+}
+
+void AllocationFailure::end()
+{
+	untilFailure = 0;
 }
 
 } // namespace wavemesh::test

@@ -16,4 +16,13 @@ public:
 	std::size_t peak() const;
 };
 
+/// Has one allocation fail: the one behind `after` others. One at a time, one thread.
+class AllocationFailure
+{
+public:
+	explicit AllocationFailure(std::size_t after);
+	~AllocationFailure();
+	void end();
+};
+
 } // namespace wavemesh::test

@@ -6,6 +6,8 @@
 #include "mesh_families.h"
 #include "wmc_files.h"
 
+#include <wavemesh/detail_pyramid.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,6 +24,16 @@ StatusCode codeOf(const MeshData& mesh, const EncodeOptions& o = {})
 		EXPECT_FALSE(file.status().what.empty());
 	}
 	return file.status().code;
+}
+
+/// Before whatever the codec's own files initialise, if they come later in the program.
+const Result<EncodedMesh> kBeforeMain = encode(makeTorus(12, 9));
+
+TEST(Encode, GivesTheSameFileBeforeMain)
+{
+	ASSERT_TRUE(kBeforeMain.ok());
+	EXPECT_EQ(kBeforeMain->bytes, encode(makeTorus(12, 9))->bytes);
+	EXPECT_TRUE(decode(kBeforeMain->bytes.data(), kBeforeMain->bytes.size()).ok());
 }
 
 TEST(Encode, RefusesOptionsOutOfRange)
@@ -44,6 +56,7 @@ TEST(Encode, RefusesOptionsOutOfRange)
 	for (const double x : {0.0, -1.0, kNaN})
 		EXPECT_EQ(with([&](auto& o) { o.wgcDeviation = x; }), StatusCode::InvalidArgument) << x;
 	EXPECT_EQ(with([](auto& o) { o.mode = static_cast<Mode>(7); }), StatusCode::InvalidArgument);
+	EXPECT_EQ(with([](auto& o) { o.wgc = static_cast<Wgc>(3); }), StatusCode::InvalidArgument);
 	EXPECT_EQ(with([](auto&) {}), StatusCode::Ok);
 }
 
@@ -280,7 +293,7 @@ TEST(Progress, CancelsEveryLevel_AndNoMeshIsLeft)
 		EncodeOptions o;
 		o.mode          = mode;
 		const auto file = encode(mesh, o);
-		for (int level = 1; level <= file->info.finestLevel(); ++level) {
+		for (int level = 0; level <= file->info.finestLevel(); ++level) {
 			auto decoder = Decoder::open(file->bytes.data(), file->bytes.size());
 			while (decoder->level() + 1 < level)
 				ASSERT_TRUE(decoder->advance().ok());
@@ -288,6 +301,37 @@ TEST(Progress, CancelsEveryLevel_AndNoMeshIsLeft)
 			EXPECT_EQ(s.code, StatusCode::Cancelled) << level;
 			EXPECT_TRUE(decoder->mesh().positions.empty()) << level;
 		}
+	}
+}
+
+TEST(Progress, CancelsALargeBaseMeshAndItsAttributesAtAnyCall)
+{
+	MeshData mesh; // of triangles that cannot be coarsened
+	for (std::uint32_t v = 0; v < 3 * 5000; ++v)
+		mesh.positions.push_back({double(v % 101), double(v % 103), double(v % 107)});
+	for (std::uint32_t f = 0; f < 5000; ++f)
+		mesh.triangles.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+	Attribute colour;
+	colour.values.assign(mesh.positions.size(), 1);
+	for (std::size_t v = 0; v < colour.values.size(); ++v)
+		colour.values[v] = double(v % 109);
+	mesh.attributes = {colour, colour};
+	const auto file = encode(mesh);
+	ASSERT_TRUE(file.ok());
+	ASSERT_EQ(file->info.levels[0].vertices, mesh.positions.size());
+	std::vector<double> asked;
+	auto whole = Decoder::open(file->bytes.data(), file->bytes.size());
+	ASSERT_TRUE(whole->advance([&](double x) { return asked.push_back(x), true; }).ok());
+	ASSERT_GE(asked.size(), 7u);
+	EXPECT_TRUE(std::is_sorted(asked.begin(), asked.end()));
+	EXPECT_LT(asked[4], 0.9) << "there are attributes, too";
+	for (std::size_t call = 0; call < asked.size(); ++call) {
+		auto decoder      = Decoder::open(file->bytes.data(), file->bytes.size());
+		std::size_t calls = 0;
+		EXPECT_EQ(
+		    decoder->advance([&](double) { return calls++ < call; }).code, StatusCode::Cancelled);
+		EXPECT_EQ(calls, call + 1);
+		EXPECT_TRUE(decoder->mesh().positions.empty());
 	}
 }
 
@@ -335,6 +379,48 @@ TEST(Progress, OfDecode_IsMonotoneAndCancels)
 		ASSERT_EQ(back.status().code, StatusCode::Cancelled);
 		ASSERT_FALSE(back.hasValue());
 	}
+}
+
+// ---- memory ----
+
+/// Has each allocation fail in turn. @return how many there were until `work` was ok
+template <class Work>
+std::size_t failEachAllocation(const Work& work)
+{
+	for (std::size_t n = 0;; ++n) {
+		AllocationFailure failure(n);
+		const StatusCode code = work();
+		failure.end();
+		if (code == StatusCode::Ok)
+			return n;
+		EXPECT_EQ(code, StatusCode::OutOfMemory) << n;
+		if (n == 100'000)
+			return 0;
+	}
+}
+
+TEST(Memory, ThatRunsOutAnywhereIsAStatus)
+{
+	const MeshData mesh = makeTorus(7, 5);
+	EncodeOptions o;
+	o.effort        = 1;
+	const auto file = encode(mesh, o);
+	const auto& b   = file->bytes;
+	EXPECT_GT(failEachAllocation([&] { return readInfo(b.data(), b.size()).status().code; }), 2u);
+	EXPECT_GT(
+	    failEachAllocation([&] { return Decoder::open(b.data(), b.size()).status().code; }), 3u);
+	const auto byLevels = [&] {
+		auto decoder = Decoder::open(b.data(), b.size());
+		Status s     = decoder.status();
+		while (s.ok() && decoder->level() < decoder->info().finestLevel())
+			s = decoder->advance([](double) { return true; });
+		return s.code;
+	};
+	EXPECT_GT(failEachAllocation(byLevels), 50u);
+	EXPECT_GT(failEachAllocation([&] { return decode(b.data(), b.size()).status().code; }), 50u);
+	EXPECT_GT(failEachAllocation([&] { return encode(mesh, o).status().code; }), 50u);
+	EXPECT_GT(failEachAllocation([&] { return Multiresolution::of(mesh).status().code; }), 50u);
+	EXPECT_GT(failEachAllocation([&] { return DetailPyramid::of(mesh).status().code; }), 50u);
 }
 
 // ---- limits ----

@@ -15,6 +15,17 @@
 namespace wavemesh::test {
 namespace {
 
+TEST(Head, RefusesALevelOf4GiBAndNamesIt)
+{
+	std::vector<LevelRow> rows(3);
+	rows[1].bytes = 0xffffffff;
+	EXPECT_TRUE(checkSizes(rows).ok());
+	++rows[1].bytes;
+	const Status s = checkSizes(rows);
+	EXPECT_EQ(s.code, StatusCode::LimitExceeded);
+	EXPECT_EQ(s.what, "level 1 takes 4294967296 bytes, more than the format can hold (4294967295)");
+}
+
 TEST(ByteIo, WhatIsWrittenIsRead)
 {
 	ByteWriter out;
@@ -150,7 +161,7 @@ Head someHead(std::uint64_t seed)
 		const bool precise = h.mode == Mode::Compact && i > 0 && rng.below(2) == 1;
 		row.kind  = i == 0 ? LevelKind::Base : precise ? LevelKind::Precise : LevelKind::Split;
 		row.bytes = rng.below(1000);
-		row.connectivityBytes = rng.below(row.bytes + 1);
+		row.connectivityBytes = rng.below(std::uint32_t(row.bytes) + 1);
 		row.errorCode         = static_cast<std::uint8_t>(i + 1 == levels ? 0 : rng.below(256));
 		row.endsChunk         = i + 1 == levels || rng.below(2) == 1;
 		if (i > 0 && !precise && row.faces < 1000000) {

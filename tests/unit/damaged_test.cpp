@@ -17,6 +17,7 @@ bool isRefusal(StatusCode code)
 	switch (code) {
 	case StatusCode::NotWmc:
 	case StatusCode::VersionTooNew:
+	case StatusCode::VersionTooOld:
 	case StatusCode::Truncated:
 	case StatusCode::Corrupt:
 	case StatusCode::ChecksumMismatch:

@@ -84,6 +84,27 @@ TEST_F(WholeFile, NewerMajorVersion_IsRefusedWhateverTheHeadLooksLike)
 	EXPECT_EQ(decoded(other).status().code, StatusCode::VersionTooNew);
 }
 
+TEST_F(WholeFile, OlderMinorVersion_IsRefusedAsTooOld)
+{
+	Bytes changed                  = file_;
+	std::uint8_t& minor            = changed[chunks_[0].payload + 1];
+	const std::uint8_t thisVersion = minor;
+	for (int version = 0; version < 8; ++version) {
+		minor = std::uint8_t(version);
+		mendChecksum(changed, chunks_[0]);
+		const StatusCode expected = version == thisVersion  ? StatusCode::Ok
+		                            : version < thisVersion ? StatusCode::VersionTooOld
+		                                                    : StatusCode::VersionTooNew;
+		EXPECT_EQ(decoded(changed).status().code, expected) << version;
+		EXPECT_EQ(readInfo(changed.data(), changed.size()).status().code, expected) << version;
+	}
+	minor = 4;
+	mendChecksum(changed, chunks_[0]);
+	EXPECT_EQ(
+	    decoded(changed).status().what,
+	    "the file has format version 0.4, older than 0.5, the only one that this program reads");
+}
+
 TEST_F(WholeFile, ForeignData_IsNotWmc)
 {
 	EXPECT_EQ(decode(nullptr, 0).status().code, StatusCode::NotWmc);

@@ -37,9 +37,12 @@ struct Parts
 	}
 };
 
-Parts partsOf(const MeshData& mesh, EncodeOptions options = {})
+constexpr Mode kModes[] = {Mode::Classic, Mode::Compact};
+
+Parts partsOf(const MeshData& mesh, Mode mode)
 {
-	options.mode       = Mode::Classic;
+	EncodeOptions options;
+	options.mode       = mode;
 	const auto encoded = encode(mesh, options);
 	const Bytes& file  = encoded->bytes;
 	std::size_t end    = 0;
@@ -94,13 +97,15 @@ TEST(Limits, ADeclaredButAbsentRestorationTakesNoMemory)
 {
 	MeshData mesh = makeIcosphere(2);
 	mesh.positions.push_back({1, 2, 3});
-	Parts parts = partsOf(mesh);
-	ASSERT_TRUE(parts.head.has(kRestoration));
-	parts.head.vertices = 190'000'000;
-	parts.head.faces    = 380'000'000;
-	for (const Bytes& stream : emptyStreams()) {
-		parts.replace(kRestoration, stream);
-		expectLittleMemoryFor(parts.file());
+	for (const Mode mode : kModes) {
+		Parts parts = partsOf(mesh, mode);
+		ASSERT_TRUE(parts.head.has(kRestoration));
+		parts.head.vertices = 190'000'000;
+		parts.head.faces    = 380'000'000;
+		for (const Bytes& stream : emptyStreams()) {
+			parts.replace(kRestoration, stream);
+			expectLittleMemoryFor(parts.file());
+		}
 	}
 }
 
@@ -111,14 +116,16 @@ TEST(Limits, DeclaredButAbsentAttributesTakeNoMemory)
 	a.components = 10;
 	a.values.assign(10 * mesh.positions.size(), 0.5);
 	mesh.attributes.assign(60, a);
-	Parts parts = partsOf(mesh);
-	for (Channel& channel : parts.head.channels) {
-		ASSERT_TRUE(channel.columns.empty());
-		channel.components = Channel::kMostColumns;
-	}
-	for (const Bytes& stream : emptyStreams()) {
-		parts.replace(kAttributes, stream);
-		expectLittleMemoryFor(parts.file(), kLittle / 2);
+	for (const Mode mode : kModes) {
+		Parts parts = partsOf(mesh, mode);
+		for (Channel& channel : parts.head.channels) {
+			ASSERT_TRUE(channel.columns.empty());
+			channel.components = Channel::kMostColumns;
+		}
+		for (const Bytes& stream : emptyStreams()) {
+			parts.replace(kAttributes, stream);
+			expectLittleMemoryFor(parts.file(), kLittle / 2);
+		}
 	}
 }
 
@@ -127,55 +134,82 @@ TEST(Limits, AttributesBeyondTheirsAreRefusedByName)
 	MeshData mesh = makeIcosphere(2);
 	mesh.attributes.resize(1);
 	mesh.attributes[0].values.assign(mesh.positions.size(), 0.5);
-	Parts parts = partsOf(mesh);
 	DecodeOptions o;
 	o.limits.maxAttributeValues = mesh.positions.size() - 1;
-	const Bytes file            = parts.file();
-	const auto back             = decode(file.data(), file.size(), o);
-	EXPECT_EQ(back.status().code, StatusCode::LimitExceeded);
-	EXPECT_NE(back.status().what.find("maxAttributeValues"), std::string::npos);
+	for (const Mode mode : kModes) {
+		const Bytes file = partsOf(mesh, mode).file();
+		const auto back  = decode(file.data(), file.size(), o);
+		EXPECT_EQ(back.status().code, StatusCode::LimitExceeded);
+		EXPECT_NE(back.status().what.find("maxAttributeValues"), std::string::npos);
+	}
+}
+
+TEST(Limits, AttributesCountInTheFinestLevelToo_WhereAnOpenedMeshHasMoreRows)
+{
+	MeshData mesh; // many pages on one edge: two vertices become two of each page
+	mesh.positions = {{0, 0, 0}, {0, 0, 1}};
+	for (std::uint32_t page = 0; page < 50; ++page) {
+		mesh.positions.push_back({1, double(page), 0});
+		mesh.triangles.push_back({0, 1, page + 2});
+	}
+	mesh.attributes.resize(1);
+	mesh.attributes[0].values.assign(mesh.positions.size(), 0.5);
+	const auto file = encode(mesh);
+	ASSERT_EQ(file->info.features.attributeValues, 52u);
+	DecodeOptions o;
+	o.limits.maxAttributeValues = 149;
+	EXPECT_EQ(
+	    decode(file->bytes.data(), file->bytes.size(), o).status().what,
+	    "the file declares 150 numbers in attributes, more than the limit of 149 "
+	    "(maxAttributeValues)");
+	o.limits.maxAttributeValues = 150;
+	EXPECT_TRUE(decode(file->bytes.data(), file->bytes.size(), o).ok());
 }
 
 TEST(Limits, ThousandsOfLevelsThatAddAVertexEachAreRefusedByName)
 {
-	Parts parts = partsOf(makeTetrahedron());
-	ASSERT_EQ(parts.head.rows.size(), 1u);
-	LevelRow row = parts.head.rows[0];
-	row.vertices = parts.head.rows[0].vertices = 1'000'000;
-	row.faces = parts.head.rows[0].faces = 2'000'000;
-	row.kind                             = LevelKind::Split;
-	row.bytes                            = 0;
-	parts.head.rows[0].endsChunk         = false;
-	while (parts.head.rows.size() < 4096) {
-		++row.vertices;
-		row.faces += 2;
-		parts.head.rows.push_back(row);
+	for (const Mode mode : kModes) {
+		Parts parts = partsOf(makeTetrahedron(), mode);
+		ASSERT_EQ(parts.head.rows.size(), 1u);
+		LevelRow row = parts.head.rows[0];
+		row.vertices = parts.head.rows[0].vertices = 1'000'000;
+		row.faces = parts.head.rows[0].faces = 2'000'000;
+		row.kind                             = LevelKind::Split;
+		row.bytes                            = 0;
+		parts.head.rows[0].endsChunk         = false;
+		while (parts.head.rows.size() < 4096) {
+			++row.vertices;
+			row.faces += 2;
+			parts.head.rows.push_back(row);
+		}
+		parts.head.rows.back().endsChunk = true;
+		const Bytes file                 = parts.file();
+		AllocationWatch watch;
+		const auto back = decode(file.data(), file.size());
+		EXPECT_EQ(back.status().code, StatusCode::LimitExceeded);
+		EXPECT_NE(back.status().what.find("maxLevelShare"), std::string::npos)
+		    << back.status().what;
+		EXPECT_LT(watch.peak(), kLittle);
+		DecodeOptions o;
+		o.limits = DecodeLimits::none();
+		EXPECT_EQ(decode(file.data(), file.size(), o).status().code, StatusCode::Corrupt);
 	}
-	parts.head.rows.back().endsChunk = true;
-	const Bytes file                 = parts.file();
-	AllocationWatch watch;
-	const auto back = decode(file.data(), file.size());
-	EXPECT_EQ(back.status().code, StatusCode::LimitExceeded);
-	EXPECT_NE(back.status().what.find("maxLevelShare"), std::string::npos) << back.status().what;
-	EXPECT_LT(watch.peak(), kLittle);
-	DecodeOptions o;
-	o.limits = DecodeLimits::none();
-	EXPECT_EQ(decode(file.data(), file.size(), o).status().code, StatusCode::Corrupt);
 }
 
 /// What decoding takes at most for a mesh that is there: a fixed part, and so much for a vertex.
 TEST(Limits, DecodingTakesMemoryForTheDeclaredMeshOnly)
 {
 	for (const std::uint32_t vertices : {2'000u, 40'000u})
-		for (const bool full : {false, true}) {
-			EncodeOptions options;
-			options.keepOrder = options.exact = full;
-			options.effort                    = 1;
-			const auto file                   = encode(makeBumpySphere(vertices, 3), options);
-			AllocationWatch watch;
-			ASSERT_TRUE(decode(file->bytes.data(), file->bytes.size()).ok());
-			EXPECT_LT(watch.peak(), kLittle + 700 * std::size_t(vertices)) << vertices;
-		}
+		for (const bool full : {false, true})
+			for (const Mode mode : kModes) {
+				EncodeOptions options;
+				options.keepOrder = options.exact = full;
+				options.mode                      = mode;
+				const auto file                   = encode(makeBumpySphere(vertices, 3), options);
+				AllocationWatch watch;
+				ASSERT_TRUE(decode(file->bytes.data(), file->bytes.size()).ok());
+				EXPECT_LT(watch.peak(), kLittle + 700 * std::size_t(vertices)) << vertices;
+			}
 }
 
 } // namespace

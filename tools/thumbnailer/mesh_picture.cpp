@@ -35,7 +35,13 @@ Vec3 unit(const Vec3& a)
 	return length > 0 ? Vec3 {a[0] / length, a[1] / length, a[2] / length} : Vec3 {0, 0, 0};
 }
 
-/// Turned to the view, and scaled to the picture: x to the right, y down, z towards the eye.
+bool isFinite(const Vec3& a)
+{
+	return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
+
+/// Turned to the view, and scaled to the picture: x to the right, y down, z towards the eye. What
+/// is nowhere stays nowhere.
 std::vector<Vec3> toView(const std::vector<Vec3>& positions, int size)
 {
 	const double yaw = -0.5, pitch = 0.35;
@@ -50,7 +56,7 @@ std::vector<Vec3> toView(const std::vector<Vec3>& positions, int size)
 		view.push_back(
 		    {x, -(std::cos(pitch) * p[1] - std::sin(pitch) * z),
 		     std::sin(pitch) * p[1] + std::cos(pitch) * z});
-		for (std::size_t k = 0; k < 3; ++k) {
+		for (std::size_t k = 0; k < 3 && isFinite(view.back()); ++k) {
 			low[k]  = std::min(low[k], view.back()[k]);
 			high[k] = std::max(high[k], view.back()[k]);
 		}
@@ -81,14 +87,16 @@ public:
 	{
 		const double area =
 		    (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]);
-		if (area == 0)
+		if (!std::isfinite(area) || area == 0 || !isFinite(p[0]) || !isFinite(p[1]) ||
+		    !isFinite(p[2]))
 			return;
 		const auto range = [&](std::size_t k) {
 			const double low  = std::min({p[0][k], p[1][k], p[2][k]});
 			const double high = std::max({p[0][k], p[1][k], p[2][k]});
+			const double last = size_ - 1;
 			return std::pair(
-			    std::clamp(int(std::floor(low)), 0, size_ - 1),
-			    std::clamp(int(std::ceil(high)), 0, size_ - 1));
+			    int(std::clamp(std::floor(low), 0., last)),
+			    int(std::clamp(std::ceil(high), 0., last)));
 		};
 		const auto [left, right] = range(0);
 		const auto [top, bottom] = range(1);

@@ -17,7 +17,7 @@ struct AttributeOptions
 	std::string bits;
 
 	void addTo(CLI::App& command);
-	/// Of Channel (wavemesh/vcg_attributes.h), combined. Throws UsageError.
+	/// Of VcgChannel (wavemesh/vcg_attributes.h), combined. Throws UsageError.
 	unsigned channels() const;
 	/// @param exact  is what `bits` does not name to be exact? Throws UsageError.
 	void setBits(MeshData& mesh, bool exact) const;

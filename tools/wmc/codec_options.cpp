@@ -183,7 +183,7 @@ std::string nameOfLifting(int lifting)
 
 std::string nameOf(const EncodeOptions& o)
 {
-	return nameOf(o.effort == 1 ? Mode::Classic : o.mode) + ", " +
+	return nameOf(isWrittenClassic(o) ? Mode::Classic : Mode::Compact) + ", " +
 	       (o.step > 0 ? "step " + significant(o.step, 6) : std::to_string(o.bits) + " bits") +
 	       (o.mode == Mode::Classic ? ", lifting " + nameOfLifting(o.lifting)
 	                                : ", effort " + std::to_string(o.effort)) +

@@ -16,8 +16,8 @@ Format formatOf(const std::string& path);
 
 /// Reads a mesh; the format is that of the file's name. Corners of an STL at the same place become
 /// one vertex. Polygons are cut into triangles. Throws Failure, also where a file is damaged.
-/// @param channels  of Channel (wavemesh/vcg_attributes.h): attributes that are taken if the file
-///                  has them
+/// @param channels  of VcgChannel (wavemesh/vcg_attributes.h): attributes that are taken if the
+///                  file has them
 /// @param notRead   [out] if not null and kCustom is taken: what else a PLY has, in a user's words
 MeshData loadMesh(
     const std::string& path, unsigned channels = 0, std::vector<std::string>* notRead = nullptr);

@@ -23,7 +23,7 @@ constexpr int edgesInside(std::size_t k, std::size_t n)
 
 /// Triangles of polygons, triangle strips or a range grid; polygons are fans. Of a property for
 /// which there is no channel, numbers and lists of three become attributes of its name.
-/// @param channels  of Channel (wavemesh/vcg_attributes.h): attributes to take
+/// @param channels  of VcgChannel (wavemesh/vcg_attributes.h): attributes to take
 /// @param notRead   what else there is, in a user's words; added to if kCustom is taken
 MeshData readPly(
     const Bytes& file,

@@ -30,7 +30,7 @@ struct Known
 
 /// An attribute for the columns of a group.
 Attribute attributeOf(AttributeOf of, Group group);
-unsigned channelOf(AttributeOf of, Group group); ///< of Channel (wavemesh/vcg_attributes.h)
+unsigned channelOf(AttributeOf of, Group group); ///< of VcgChannel (wavemesh/vcg_attributes.h)
 
 /// The first of this name, or nullptr.
 const Property* find(const Element& e, const std::string& name);

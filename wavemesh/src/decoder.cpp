@@ -2,11 +2,10 @@
 // The way through a file: chunk by chunk, level by level, and what follows them.
 #include "decoder_state.h"
 #include "finish/finish.h"
+#include "guard.h"
 #include "level_work.h"
 #include "predict/shown_positions.h"
 #include "stage.h"
-
-#include <new>
 
 namespace wavemesh {
 
@@ -14,6 +13,11 @@ namespace {
 
 /// So many faces may be in any number of levels.
 constexpr std::uint64_t kFewFaces = 1000;
+
+const char* forTheHead()
+{
+	return "for the head of the file";
+}
 
 } // namespace
 
@@ -162,7 +166,8 @@ Status checkLimits(const Head& head, const StreamInfo& info, const DecodeLimits&
 		return overLimit(vertices, "vertices", "maxVertices", limits.maxVertices);
 	if (faces > limits.maxFaces)
 		return overLimit(faces, "faces", "maxFaces", limits.maxFaces);
-	const std::uint64_t values = info.features.attributeValues;
+	// Of a restored mesh level J has rows of its own, more of vertices, fewer of faces.
+	const std::uint64_t values = attributeValues(head, vertices, faces);
 	if (values > limits.maxAttributeValues)
 		return overLimit(
 		    values, "numbers in attributes", "maxAttributeValues", limits.maxAttributeValues);
@@ -197,35 +202,36 @@ int Decoder::level() const
 Result<Decoder>
 Decoder::open(const std::uint8_t* data, std::size_t size, const DecodeLimits& limits)
 {
-	auto state      = std::make_unique<State>();
-	std::size_t end = 0;
-	auto head       = readHead(data, size, end);
-	if (!head.ok())
-		return head.status();
-	state->data   = data;
-	state->size   = size;
-	state->head   = std::move(*head);
-	state->info   = describe(state->head, end);
-	state->offset = end;
-	if (Status over = checkLimits(state->head, state->info, limits); !over.ok())
-		return over;
-	return Decoder(std::move(state));
+	const auto work = [&]() -> Result<Decoder> {
+		auto state      = std::make_unique<State>();
+		std::size_t end = 0;
+		auto head       = readHead(data, size, end);
+		if (!head.ok())
+			return head.status();
+		state->data   = data;
+		state->size   = size;
+		state->head   = std::move(*head);
+		state->info   = describe(state->head, end);
+		state->offset = end;
+		if (Status over = checkLimits(state->head, state->info, limits); !over.ok())
+			return over;
+		return Decoder(std::move(state));
+	};
+	return guarded(work, forTheHead);
 }
 
 Status Decoder::advance(const Progress& progress)
 {
-	State& s   = *state_;
-	s.progress = progress;
-	Status status;
-	try {
-		status = s.advance();
+	State& s        = *state_;
+	const auto work = [&] {
+		s.progress    = progress;
+		Status status = s.advance();
 		if (status.ok() && s.level == s.info.finestLevel())
 			status = s.finish();
-	}
-	catch (const std::bad_alloc&) {
-		status = {StatusCode::OutOfMemory, "not enough memory for " + levelName(s.level + 1)};
-	}
-	s.progress = {};
+		return status;
+	};
+	const Status status = guarded(work, [&] { return "for " + levelName(s.level + 1); });
+	s.progress          = {};
 	if (!status.ok() && status.code != StatusCode::InvalidArgument)
 		s.stopped = status;
 	return status;
@@ -261,14 +267,20 @@ MeshData Decoder::mesh() const
 
 Result<StreamInfo> readInfo(const std::uint8_t* data, std::size_t size)
 {
-	std::size_t end = 0;
-	auto head       = readHead(data, size, end);
-	if (!head.ok())
-		return head.status();
-	return describe(*head, end);
+	const auto work = [&]() -> Result<StreamInfo> {
+		std::size_t end = 0;
+		auto head       = readHead(data, size, end);
+		if (!head.ok())
+			return head.status();
+		return describe(*head, end);
+	};
+	return guarded(work, forTheHead);
 }
 
-Result<DecodedMesh> decode(const std::uint8_t* data, std::size_t size, const DecodeOptions& options)
+namespace {
+
+Result<DecodedMesh>
+decodeTo(const std::uint8_t* data, std::size_t size, const DecodeOptions& options)
 {
 	auto decoder = Decoder::open(
 	    data, static_cast<std::size_t>(std::min<std::uint64_t>(size, options.maxBytes)),
@@ -291,15 +303,17 @@ Result<DecodedMesh> decode(const std::uint8_t* data, std::size_t size, const Dec
 	}
 	if (!status.ok() && (status.code != StatusCode::Truncated || decoder->level() < 0))
 		return status;
-	try {
-		DecodedMesh out {decoder->mesh(), decoder->level(), info};
-		if (options.progress && !options.progress(1))
-			return cancelled();
-		return Result<DecodedMesh>(std::move(out), status);
-	}
-	catch (const std::bad_alloc&) {
-		return Status(StatusCode::OutOfMemory, "not enough memory for the mesh");
-	}
+	DecodedMesh out {decoder->mesh(), decoder->level(), info};
+	if (options.progress && !options.progress(1))
+		return cancelled();
+	return Result<DecodedMesh>(std::move(out), status);
+}
+
+} // namespace
+
+Result<DecodedMesh> decode(const std::uint8_t* data, std::size_t size, const DecodeOptions& options)
+{
+	return guarded([&] { return decodeTo(data, size, options); }, [] { return "for the mesh"; });
 }
 
 } // namespace wavemesh

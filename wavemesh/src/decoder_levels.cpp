@@ -42,17 +42,19 @@ Decoder::State::wrongSize(std::uint32_t found, const char* elements, std::uint32
 
 Status Decoder::State::readBase()
 {
-	auto base =
-	    BaseSyntax<RangeDecoder>(coder, head.lattice.bits - row(0).shift, head.has(kRestoration))
-	        .read(row(0).vertices, row(0).faces);
+	const double end = attributesBegin();
+	BaseSyntax<RangeDecoder> syntax(
+	    coder, head.lattice.bits - row(0).shift, head.has(kRestoration));
+	syntax.watch(watched(0, end));
+	auto base = syntax.read(row(0).vertices, row(0).faces);
 	if (!base.ok())
 		return base.status().code == StatusCode::Truncated ? ended("the base mesh") : base.status();
 	// Everything that follows relies on cells being cells.
 	if (head.mode == Mode::Compact) {
-		const std::int32_t end = 1 << (head.lattice.bits - row(0).shift);
+		const std::int32_t cells = 1 << (head.lattice.bits - row(0).shift);
 		for (const LatticePoint& p : base->positions)
 			for (const std::int32_t x : p)
-				if (x < 0 || x >= end)
+				if (x < 0 || x >= cells)
 					return corrupt("has a vertex outside the lattice");
 	}
 	table     = std::move(base->table);
@@ -60,7 +62,9 @@ Status Decoder::State::readBase()
 	glue      = std::move(base->glue);
 	if (head.has(kAttributes)) {
 		attributes = std::make_unique<AttributeReader>(head);
-		attributes->base(coder, table, glue);
+		attributes->base(coder, table, glue, watched(end, 1));
+		if (cancelled)
+			return wavemesh::cancelled();
 		if (coder.exhausted())
 			return ended("the attributes");
 	}
@@ -78,7 +82,7 @@ Status Decoder::State::readSplit()
 	ConnectivitySyntax<RangeDecoder>(coder, *connectivityModels, table, positions).code(refinement);
 	if (coder.exhausted())
 		return ended("the connectivity");
-	if (head.mode == Mode::Classic && !goesOn(kConnectivityWork))
+	if (head.mode == Mode::Classic && !goesOn(kConnectivityWork * attributesBegin()))
 		return wavemesh::cancelled();
 	if (refinement.childVertices != target.vertices)
 		return wrongSize(refinement.childVertices, "vertices", target.vertices);
@@ -89,7 +93,11 @@ Status Decoder::State::readSplit()
 	    head.mode == Mode::Classic ? readDetails(refinement) : readChildren(refinement, child);
 	if (status.ok() || status.code == StatusCode::Truncated) {
 		if (attributes)
-			attributes->split(coder, table, child, refinement, parentsOf(table, refinement));
+			attributes->split(
+			    coder, table, child, refinement, parentsOf(table, refinement),
+			    watched(attributesBegin(), 1));
+		if (cancelled)
+			return wavemesh::cancelled();
 		if (status.ok() && coder.exhausted())
 			status = ended("the attributes");
 		table = std::move(child);
@@ -121,10 +129,11 @@ Status Decoder::State::readChildren(const Refinement& refinement, const CornerTa
 	if (!compactModels)
 		compactModels = std::make_unique<CompactModels>(head.predictors);
 	positions.resize(child.vertexCount, {0, 0, 0});
+	const double end = attributesBegin();
 	withPositionSyntax<RangeDecoder>(
 	    head.predictors,
 	    [&](auto syntax) {
-		    syntax.watch(watched(kConnectivityWork));
+		    syntax.watch(watched(kConnectivityWork * end, end));
 		    syntax.codeChildren(table, refinement, lastParents, row(level + 1).shift, positions);
 	    },
 	    coder, *compactModels, child, head.lattice.bits, glue);
@@ -144,7 +153,7 @@ Status Decoder::State::readPrecise()
 	const Index whole = withPositionSyntax<RangeDecoder>(
 	    head.predictors,
 	    [&](auto syntax) {
-		    syntax.watch(watched(0));
+		    syntax.watch(watched(0, 1));
 		    return syntax.codeBits(shift, bits, positions, {});
 	    },
 	    coder, *compactModels, table, head.lattice.bits, glue);
@@ -169,10 +178,18 @@ bool Decoder::State::goesOn(double fraction)
 	return !cancelled;
 }
 
-/// The progress of the rest of a level, from `from` on.
-Progress Decoder::State::watched(double from)
+/// The progress of a part of a level.
+Progress Decoder::State::watched(double from, double to)
 {
-	return [this, from](double fraction) { return goesOn(from + (1 - from) * fraction); };
+	return [this, from, to](double fraction) { return goesOn(from + (to - from) * fraction); };
+}
+
+/// Where in the work of the next level its attributes begin.
+double Decoder::State::attributesBegin() const
+{
+	const LevelInfo* next = &info.levels[std::size_t(level + 1)];
+	const double all      = levelWork(info.mode, *next, level < 0 ? nullptr : next - 1);
+	return all > 0 ? 1 - attributeWork(*next) / all : 1;
 }
 
 } // namespace wavemesh

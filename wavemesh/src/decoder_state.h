@@ -65,7 +65,8 @@ struct Decoder::State
 	Status finish();
 	Status advance();
 	bool goesOn(double fraction);
-	Progress watched(double from);
+	Progress watched(double from, double to);
+	double attributesBegin() const;
 	Status ended(const char* where) const;
 	Status corrupt(const std::string& what) const;
 	Status wrongSize(std::uint32_t found, const char* elements, std::uint32_t declared) const;

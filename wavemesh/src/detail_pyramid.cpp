@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "guard.h"
 #include "mesh/vec3.h"
 #include "multires/mesh_levels.h"
 #include "wavelet/lifting.h"
@@ -6,7 +7,6 @@
 #include <wavemesh/detail_pyramid.h>
 
 #include <algorithm>
-#include <new>
 
 namespace wavemesh {
 namespace {
@@ -196,7 +196,7 @@ struct DetailPyramid::Levels
 
 Result<DetailPyramid> DetailPyramid::of(const MeshData& mesh, const MultiresolutionOptions& options)
 {
-	try {
+	const auto work = [&]() -> Result<DetailPyramid> {
 		auto replayed = replayLevels(mesh, options);
 		if (!replayed.ok())
 			return replayed.status();
@@ -228,10 +228,8 @@ Result<DetailPyramid> DetailPyramid::of(const MeshData& mesh, const Multiresolut
 		}
 		levels->baseVertices = values.size();
 		return DetailPyramid(std::move(levels));
-	}
-	catch (const std::bad_alloc&) {
-		return Status(StatusCode::OutOfMemory, "not enough memory for the levels of this mesh");
-	}
+	};
+	return guarded(work, [] { return "for the levels of this mesh"; });
 }
 
 int DetailPyramid::finestLevel() const

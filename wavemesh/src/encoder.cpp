@@ -4,10 +4,10 @@
 #include "encode/compact.h"
 #include "encode/ways.h"
 #include "finish/finish.h"
+#include "guard.h"
 
 #include <wavemesh/codec.h>
 
-#include <new>
 #include <optional>
 
 namespace wavemesh {
@@ -23,6 +23,8 @@ Status checkOptions(const EncodeOptions& o)
 		return {StatusCode::InvalidArgument, "effort must be 1, 2 or 3"};
 	if (o.lifting < kLiftingOff || o.lifting > 2)
 		return {StatusCode::InvalidArgument, "lifting must be off or the k of a k-disc, 0 to 2"};
+	if (o.wgc > Wgc::Auto)
+		return {StatusCode::InvalidArgument, "unknown choice of the geometrical criterion"};
 	if (!(o.wgcSharpness >= 0 && o.wgcSharpness <= 1))
 		return {StatusCode::InvalidArgument, "the sharpness threshold must be 0 to 1"};
 	if (!(o.wgcDeviation > 0 && o.wgcDeviation <= 1e6))
@@ -96,7 +98,7 @@ public:
 			const Stage stage(options_.progress, done / all, (done + work) / all);
 			done += work;
 			if (!stage(0) || !tryWay(way, stage))
-				return cancelled();
+				return failure_.ok() ? cancelled() : failure_;
 		}
 		return choice_.take();
 	}
@@ -202,6 +204,9 @@ private:
 		         levels.glue, attributes},
 		        head, chunks, stage))
 			return false;
+		failure_ = checkSizes(head.rows);
+		if (!failure_.ok())
+			return false;
 		EncodedMesh out;
 		writeHead(head, out.bytes);
 		out.info = describe(head, out.bytes.size());
@@ -218,23 +223,22 @@ private:
 	Seams seams_;
 	EncodingWork work_;
 	Choice choice_;
+	Status failure_; ///< why there is no file, if not by the user's wish
 };
 
 } // namespace
 
 Result<EncodedMesh> encode(const MeshData& mesh, const EncodeOptions& options)
 {
-	try {
+	const auto work = [&]() -> Result<EncodedMesh> {
 		if (Status s = checkOptions(options); !s.ok())
 			return s;
 		const auto quantised = prepare(mesh, options);
 		if (!quantised.ok())
 			return quantised.status();
 		return Encoder(mesh, *quantised, options).run();
-	}
-	catch (const std::bad_alloc&) {
-		return Status(StatusCode::OutOfMemory, "not enough memory to encode this mesh");
-	}
+	};
+	return guarded(work, [] { return "to encode this mesh"; });
 }
 
 } // namespace wavemesh

@@ -11,11 +11,16 @@
 
 namespace wavemesh {
 
+inline double attributeWork(const LevelInfo& level)
+{
+	return 17 * double(level.attributeBytes);
+}
+
 /// To read a level, and nearly as much to write it.
 /// @param below  the level before; null: there is none
 inline double levelWork(Mode mode, const LevelInfo& level, const LevelInfo* below)
 {
-	const double vertices = level.vertices, attributes = 17 * double(level.attributeBytes);
+	const double vertices = level.vertices, attributes = attributeWork(level);
 	if (below == nullptr)
 		return 10 * vertices + attributes;
 	if (level.kind == LevelKind::Precise)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "guard.h"
 #include "mesh/vec3.h"
 #include "multires/mesh_levels.h"
 #include "wavelet/lifting.h"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <numeric>
 
 namespace wavemesh {
@@ -89,7 +89,7 @@ void Multiresolution::Levels::synthesise(const Step& step, std::vector<Vec3>& va
 Result<Multiresolution>
 Multiresolution::of(const MeshData& mesh, const MultiresolutionOptions& options)
 {
-	try {
+	const auto work = [&]() -> Result<Multiresolution> {
 		auto replayed = replayLevels(mesh, options);
 		if (!replayed.ok())
 			return replayed.status();
@@ -137,10 +137,8 @@ Multiresolution::of(const MeshData& mesh, const MultiresolutionOptions& options)
 				return Status(StatusCode::Cancelled, "cancelled");
 		}
 		return Multiresolution(std::move(levels));
-	}
-	catch (const std::bad_alloc&) {
-		return Status(StatusCode::OutOfMemory, "not enough memory for the levels of this mesh");
-	}
+	};
+	return guarded(work, [] { return "for the levels of this mesh"; });
 }
 
 int Multiresolution::finestLevel() const

@@ -5,6 +5,10 @@
 ///
 /// Level 0 is the base mesh, the coarsest; the last level is the finest, the original on its
 /// lattice. Bits per vertex (bpv) always count the vertices of the original.
+///
+/// Threads: there is no shared state. Any functions may run at the same time, one Decoder in one
+/// thread at a time; its const members in any number of threads, as long as nothing advances it.
+/// Progress is called in the caller's own thread, before the function returns.
 #pragma once
 
 #include <wavemesh/mesh_data.h>
@@ -89,6 +93,12 @@ struct EncodeOptions
 	Progress progress;
 };
 
+/// Is a classic file made, whatever the mode asked for?
+inline bool isWrittenClassic(const EncodeOptions& options)
+{
+	return options.mode == Mode::Classic || options.effort == 1;
+}
+
 enum class LevelKind : std::uint8_t {
 	Base    = 0, ///< the coarsest mesh
 	Split   = 1, ///< one subdivision step
@@ -104,8 +114,8 @@ struct LevelInfo
 	/// What this level adds to the file; the levels' sum is the file size. The finest one's include
 	/// what StreamFeatures lists.
 	std::uint64_t bytes = 0;
-	std::uint64_t prefix =
-	    0; ///< length of the shortest prefix of the file that holds this level whole
+	/// Length of the shortest prefix of the file that holds this level whole.
+	std::uint64_t prefix = 0;
 	/// Of `bytes`, those spent on connectivity, geometry and attributes; the rest is headers and
 	/// checksums.
 	std::uint64_t connectivityBytes = 0;
@@ -194,8 +204,15 @@ Result<EncodedMesh> encode(const MeshData& mesh, const EncodeOptions& options = 
 
 /// What a decoder may spend. A file that declares more is refused before the memory is taken, with
 /// LimitExceeded and the name of the limit.
+///
+/// The defaults only keep a file from taking what no desktop has. For files of strangers, where
+/// others wait for the answer, choose what the largest mesh that is welcome has: decoding takes a
+/// few megabytes, up to 700 bytes for each vertex of the finest level and some dozens for each
+/// number of an attribute; and time for up to maxLevelShare times such a mesh
+/// (EncodeOptions::effort tells how much).
 struct DecodeLimits
 {
+	/// Of the finest level and of the original, whichever has more; faces and attributes, too.
 	std::uint64_t maxVertices        = 200'000'000;
 	std::uint64_t maxFaces           = 400'000'000;
 	std::uint64_t maxAttributeValues = 2'000'000'000; ///< numbers in all attributes together
@@ -225,23 +242,24 @@ struct DecodeOptions
 };
 
 /// Reads the head only: the first few hundred bytes are enough.
-/// @return NotWmc, VersionTooNew, Truncated (the head is not whole), Corrupt, ChecksumMismatch
+/// @return NotWmc, VersionTooNew, VersionTooOld, Truncated (the head is not whole), Corrupt,
+///         ChecksumMismatch, OutOfMemory
 Result<StreamInfo> readInfo(const std::uint8_t* data, std::size_t size);
 
 struct DecodedMesh
 {
 	MeshData mesh;
-	int level =
-	    0; ///< that `mesh` is; a level cut in the middle counts if its connectivity is whole
+	/// That `mesh` is; a level cut in the middle counts if its connectivity is whole.
+	int level = 0;
 	StreamInfo info;
 };
 
 /// Decodes up to options.level.
 ///
 /// @return the mesh; with status Truncated *and* a mesh if the data ends before the level asked
-///         for but after the base mesh. Errors without a mesh: NotWmc, VersionTooNew, Truncated
-///         (not even the base arrived), Corrupt, ChecksumMismatch, LimitExceeded, Cancelled,
-///         OutOfMemory.
+///         for but after the base mesh. Errors without a mesh: NotWmc, VersionTooNew,
+///         VersionTooOld, Truncated (not even the base arrived), Corrupt, ChecksumMismatch,
+///         LimitExceeded, Cancelled, OutOfMemory.
 /// Vertices of a level keep their index in every finer level, but for the finest if StreamFeatures
 /// says that it is restored or keeps the original's order.
 Result<DecodedMesh>
@@ -283,7 +301,8 @@ public:
 	/// @param progress  of this level
 	Status advance(const Progress& progress = {});
 	/// The mesh of the current level; empty after an error other than Truncated. A copy, linear
-	/// each time. @pre level() >= 0
+	/// each time. Throws std::bad_alloc if there is no memory for it, which decode() returns.
+	/// @pre level() >= 0
 	MeshData mesh() const;
 
 private:

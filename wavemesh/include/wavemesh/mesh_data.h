@@ -65,7 +65,9 @@ struct Attribute
 	/// 0: every number is kept. 1..24: columns that hold other than whole numbers are rounded to
 	/// 2^bits - 1 steps over the largest of their ranges, each by half a step at most.
 	int bits = 0;
-	std::vector<double> values; ///< #rows by `components`
+	/// #rows by `components`, row after row: number k of row r is values[r * components + k]. Rows
+	/// are those of MeshData: vertex r, face r, corner r % 3 of face r / 3, or one row.
+	std::vector<double> values;
 };
 
 /// A triangle mesh as arrays. Faces are oriented counter-clockwise seen from outside.

@@ -49,8 +49,8 @@ public:
 
 	/// #V, 0..finestLevel(): the coarsest level that has the vertex.
 	const std::vector<int>& birth() const;
-	/// #V by 3, rows of the mesh: parents[2] is kNoParent but for a centre; all three are in the
-	/// base mesh.
+	/// #V by 3, rows of the mesh: parents[2] is kNoParent but for a centre; all three are, of a
+	/// vertex of the base mesh.
 	const std::vector<std::array<std::uint32_t, 3>>& parents() const;
 	/// #V by 3, unit length or 0: of the next coarser level's surface where the vertex is
 	/// predicted; for a vertex of the base mesh, of that.

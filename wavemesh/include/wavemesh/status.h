@@ -15,11 +15,12 @@ namespace wavemesh {
 /// 30.. a resource, 40 the user, 90 ourselves. The numbers are stable.
 enum class StatusCode : std::uint8_t {
 	Ok = 0,
-	InvalidArgument =
-	    1, ///< an option out of range, or a mesh that is not a mesh (index out of range, NaN)
+	/// an option out of range, or a mesh that is not a mesh (index out of range, NaN)
+	InvalidArgument  = 1,
 	Unsupported      = 2,  ///< well formed, but outside what this version handles
 	NotWmc           = 10, ///< the data does not begin like a .wmc file
-	VersionTooNew    = 11, ///< written by a newer major version
+	VersionTooNew    = 11, ///< of a newer version of the format
+	VersionTooOld    = 12, ///< of an older one that is not read any more
 	Truncated        = 20, ///< the data ends early; what did arrive was decoded
 	Corrupt          = 21, ///< the data contradicts itself
 	ChecksumMismatch = 22, ///< a chunk or the finest mesh does not match its checksum

@@ -10,7 +10,7 @@
 namespace wavemesh {
 
 /// Adds the channels of `m` to what toMeshData(m) made of it. `m` is not modified.
-/// @param channels  of Channel, combined; those that `m` does not have are left out
+/// @param channels  of VcgChannel, combined; those that `m` does not have are left out
 template <class MeshType>
 void addAttributes(const MeshType& m, unsigned channels, MeshData& data)
 {

@@ -18,18 +18,20 @@ public:
 
 	/// With the level; the coder may be exhausted afterwards, then rows that did not come are
 	/// those of what they are predicted from.
-	void base(RangeDecoder& coder, const CornerTable& table, const Glue& glue)
+	void
+	base(RangeDecoder& coder, const CornerTable& table, const Glue& glue, const Progress& progress)
 	{
-		syntax_.codeBase(coder, table, glue);
+		syntax_.codeBase(coder, table, glue, {}, progress);
 	}
 	void split(
 	    RangeDecoder& coder,
 	    const CornerTable& parent,
 	    const CornerTable& child,
 	    const Refinement& refinement,
-	    const Parents& parents)
+	    const Parents& parents,
+	    const Progress& progress)
 	{
-		syntax_.codeSplit(coder, parent, child, refinement, parents);
+		syntax_.codeSplit(coder, parent, child, refinement, parents, {}, progress);
 	}
 	/// Of the level reached.
 	std::vector<Attribute> ofLevel() const { return attributesOf(syntax_.tables()); }

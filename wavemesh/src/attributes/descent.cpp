@@ -72,11 +72,8 @@ Descent descentOf(
 {
 	Descent d;
 	d.edge.assign(parents.size(), kNone);
-	for (Index c = 0; c < parent.cornerCount(); ++c) {
-		const Index other = parent.opposite[c];
-		if (r.childOnEdge[c] != kNone && (other == kNone || c < other))
-			d.edge[r.childOnEdge[c] - r.parentVertices] = c;
-	}
+	forEachSplitEdge(
+	    parent, r.childOnEdge, [&](Index c, Index v) { d.edge[v - r.parentVertices] = c; });
 	d.face = parentFaces(parent, r);
 	d.corner.resize(child.cornerCount(), {kNone, kNone});
 	for (Index c = 0; c < child.cornerCount(); ++c) {

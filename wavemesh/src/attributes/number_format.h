@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -12,6 +13,11 @@
 #include <vector>
 
 namespace wavemesh {
+
+static_assert(
+    FLT_EVAL_METHOD == 0 && std::numeric_limits<double>::is_iec559 &&
+        std::numeric_limits<float>::is_iec559,
+    "a decoder predicts numbers as the encoder did: every operation rounds to its own type");
 
 /// The place of x among all doubles, in ascending order; 0 for +0, -1 for -0. Any bit pattern.
 inline std::int64_t ordinalOf(double x)

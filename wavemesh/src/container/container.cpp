@@ -97,6 +97,20 @@ bool visitFields(Io& io, Head& h)
 	return (h.features >> kFeatures) == 0;
 }
 
+/// 0.x promises nothing between its minor versions.
+Status checkVersion(std::uint8_t major, std::uint8_t minor)
+{
+	const auto name = [](int a, int b) { return std::to_string(a) + "." + std::to_string(b); };
+	const int found = 256 * major + minor, read = 256 * kVersionMajor + kVersionMinor;
+	if (found == read)
+		return {};
+	return {
+	    found > read ? StatusCode::VersionTooNew : StatusCode::VersionTooOld,
+	    "the file has format version " + name(major, minor) + ", " +
+	        (found > read ? "newer" : "older") + " than " + name(kVersionMajor, kVersionMinor) +
+	        ", the only one that this program reads"};
+}
+
 /// The level table, finest first: each row next to the one it was coarsened to.
 template <class Coder>
 void codeRows(Coder& coder, Mode mode, bool hasAttributes, std::vector<LevelRow>& rows)
@@ -132,10 +146,10 @@ void codeRows(Coder& coder, Mode mode, bool hasAttributes, std::vector<LevelRow>
 			row.errorCode =
 			    std::uint8_t(finer.errorCode + error.code(coder, row.errorCode - finer.errorCode));
 		}
-		row.bytes             = std::uint32_t(bytes.code(coder, row.bytes));
-		row.connectivityBytes = std::uint32_t(connectivity.code(coder, row.connectivityBytes));
+		row.bytes             = bytes.code(coder, row.bytes);
+		row.connectivityBytes = connectivity.code(coder, row.connectivityBytes);
 		if (hasAttributes)
-			row.attributeBytes = std::uint32_t(attributes.code(coder, row.attributeBytes));
+			row.attributeBytes = attributes.code(coder, row.attributeBytes);
 		row.endsChunk        = codeBit(coder, endsChunk, row.endsChunk, 60);
 		const bool isPrecise = mode == Mode::Compact && i > 0 &&
 		                       codeBit(coder, precise, row.kind == LevelKind::Precise, 60);
@@ -153,7 +167,7 @@ Status checkRows(const std::vector<LevelRow>& rows, int bits)
 	for (std::size_t i = 0; i < rows.size(); ++i) {
 		const LevelRow& row = rows[i];
 		if (row.vertices > kMostElements || row.faces > kMostElements ||
-		    std::uint64_t(row.connectivityBytes) + row.attributeBytes > row.bytes)
+		    row.connectivityBytes + row.attributeBytes > row.bytes)
 			return corruptHead("impossible counts in the level table");
 		if (i == 0) {
 			if (std::uint64_t(row.vertices) > 3 * std::uint64_t(row.faces))
@@ -268,6 +282,18 @@ Result<Chunk> readChunk(const std::uint8_t* data, std::size_t size, std::size_t 
 	return chunk;
 }
 
+Status checkSizes(const std::vector<LevelRow>& rows)
+{
+	constexpr std::uint64_t kMost = ~std::uint32_t {0};
+	for (std::size_t i = 0; i < rows.size(); ++i)
+		if (rows[i].bytes > kMost)
+			return {
+			    StatusCode::LimitExceeded,
+			    "level " + std::to_string(i) + " takes " + std::to_string(rows[i].bytes) +
+			        " bytes, more than the format can hold (" + std::to_string(kMost) + ")"};
+	return {};
+}
+
 void writeHead(const Head& head, std::vector<std::uint8_t>& file)
 {
 	file.insert(file.end(), std::begin(kMagic), std::end(kMagic));
@@ -302,14 +328,9 @@ Result<Head> readHead(const std::uint8_t* data, std::size_t size, std::size_t& e
 		return chunk.status();
 	if (chunk->type != kHeadChunk)
 		return corruptHead("it does not come first");
-	// 0.x promises nothing between its minor versions.
-	if (chunk->size >= 2 &&
-	    (chunk->payload[0] != kVersionMajor || chunk->payload[1] != kVersionMinor))
-		return Status(
-		    StatusCode::VersionTooNew,
-		    "the file has format version " + std::to_string(int(chunk->payload[0])) + "." +
-		        std::to_string(int(chunk->payload[1])) + "; this program reads " +
-		        std::to_string(int(kVersionMajor)) + "." + std::to_string(int(kVersionMinor)));
+	if (chunk->size >= 2)
+		if (Status s = checkVersion(chunk->payload[0], chunk->payload[1]); !s.ok())
+			return s;
 	if (!chunk->whole)
 		return Status(StatusCode::Truncated, "the file ends inside its head", size);
 
@@ -358,13 +379,20 @@ StreamFeatures featuresOf(const Head& head)
 	out.attributeBytes   = head.featureBytes[kAttributes];
 	for (const LevelRow& row : head.rows)
 		out.attributeBytes += row.attributeBytes;
-	const std::uint64_t elements[4] = {head.vertices, head.faces, 3 * std::uint64_t(head.faces), 1};
-	for (const Channel& c : head.channels)
-		out.attributeValues += elements[std::size_t(c.of)] * c.width();
+	out.attributeValues = attributeValues(head, head.vertices, head.faces);
 	return out;
 }
 
 } // namespace
+
+std::uint64_t attributeValues(const Head& head, std::uint64_t vertices, std::uint64_t faces)
+{
+	const std::uint64_t elements[4] = {vertices, faces, 3 * faces, 1};
+	std::uint64_t values            = 0;
+	for (const Channel& c : head.channels)
+		values += elements[std::size_t(c.of)] * c.width();
+	return values;
+}
 
 StreamInfo describe(const Head& head, std::size_t headEnd)
 {

@@ -35,9 +35,9 @@ struct LevelRow
 	LevelKind kind                  = LevelKind::Base;
 	std::uint32_t vertices          = 0;
 	std::uint32_t faces             = 0;
-	std::uint32_t bytes             = 0; ///< of the chunk's payload
-	std::uint32_t connectivityBytes = 0; ///< of these
-	std::uint32_t attributeBytes    = 0; ///< of these
+	std::uint64_t bytes             = 0; ///< of the chunk's payload, below 2^32: checkSizes()
+	std::uint64_t connectivityBytes = 0; ///< of these
+	std::uint64_t attributeBytes    = 0; ///< of these
 	std::uint8_t errorCode          = 0; ///< see errorFromCode()
 	int shift = 0; ///< positions are known to cells 2^shift lattice units wide; 0 in classic files
 	bool endsChunk = false;
@@ -74,7 +74,9 @@ double errorFromCode(std::uint8_t code);
 /// Checksum over lattice positions and vertex indices, 32-bit little-endian words in that order.
 std::uint32_t digestOf(const CornerTable& table, const std::vector<LatticePoint>& positions);
 
-/// Appends magic and head chunk.
+/// Before a head is written. @return LimitExceeded for a level that the table cannot hold
+Status checkSizes(const std::vector<LevelRow>& rows);
+/// Appends magic and head chunk. @pre checkSizes()
 void writeHead(const Head& head, std::vector<std::uint8_t>& file);
 /// @param end  [out] offset behind the head chunk
 Result<Head> readHead(const std::uint8_t* data, std::size_t size, std::size_t& end);
@@ -97,6 +99,9 @@ Result<Chunk> readChunkFrame(const std::uint8_t* data, std::size_t size, std::si
 /// Reads the chunk at `offset`; skips none. A cut chunk comes back with what there is of it.
 /// @return Truncated if not even its length is there, ChecksumMismatch
 Result<Chunk> readChunk(const std::uint8_t* data, std::size_t size, std::size_t offset);
+
+/// Numbers in all attributes of a mesh of so many vertices and faces.
+std::uint64_t attributeValues(const Head& head, std::uint64_t vertices, std::uint64_t faces);
 
 /// What the head tells, with file offsets worked out. @param headEnd  see readHead()
 StreamInfo describe(const Head& head, std::size_t headEnd);

@@ -9,9 +9,8 @@
 namespace wavemesh {
 
 /// @return for each level, coarsest first, about the root mean square of the distance of its
-/// surface
-///         from the finest level's, both at full precision; lattice units, 0 for the finest. Within
-///         a factor of two of what sampling measures on smooth surfaces. Linear.
+///         surface from the finest level's, both at full precision; lattice units, 0 for the
+///         finest. Within a factor of two of what sampling measures on smooth surfaces. Linear.
 std::vector<double> levelErrors(const Levels& levels);
 
 } // namespace wavemesh

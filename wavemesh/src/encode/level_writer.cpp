@@ -26,9 +26,9 @@ void LevelWriter::endChunk()
 		const std::size_t middle     = RangeEncoder::prefix(payload, level.connectivityEnd);
 		const std::size_t attributes = RangeEncoder::prefix(payload, level.attributesBegin);
 		const std::size_t end        = RangeEncoder::prefix(payload, level.end);
-		level.row.bytes              = std::uint32_t(end - begin);
-		level.row.connectivityBytes  = std::uint32_t(middle - begin);
-		level.row.attributeBytes     = std::uint32_t(end - attributes);
+		level.row.bytes              = end - begin;
+		level.row.connectivityBytes  = middle - begin;
+		level.row.attributeBytes     = end - attributes;
 		level.row.endsChunk          = &level == &levels_.back();
 		begin                        = end;
 		head_.rows.push_back(level.row);

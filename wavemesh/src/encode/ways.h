@@ -30,12 +30,6 @@ struct Way
 	std::vector<Plan> plans;
 };
 
-/// Is a classic file made, whatever the mode asked for?
-inline bool isWrittenClassic(const EncodeOptions& options)
-{
-	return options.mode == Mode::Classic || options.effort == 1;
-}
-
 /// Which steps of the coarsening look at the error they make, for this aim.
 Steering steeringFor(Optimize aim);
 

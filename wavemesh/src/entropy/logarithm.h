@@ -11,8 +11,9 @@ struct LogarithmTables
 {
 	std::array<std::uint16_t, 1024> log2; ///< log2(1 + i/1024) in 1/4096, rounded down
 	std::array<std::uint16_t, 8> exp2;    ///< 2^(i/8) in 1/4096, rounded down
-	LogarithmTables();
+	constexpr LogarithmTables();
 };
+/// There at compile time: whoever encodes before main() needs it.
 extern const LogarithmTables kLogarithm;
 
 /// log2(x) in 1/4096, from the eleven leading bits. @pre x > 0

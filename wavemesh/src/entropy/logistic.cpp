@@ -12,7 +12,7 @@ constexpr int kKnots[33] = {22,    36,    60,    98,    162,   267,   439,   720
 
 } // namespace
 
-LogisticTables::LogisticTables()
+constexpr LogisticTables::LogisticTables() : squash(), stretch()
 {
 	for (int x = -2048; x < 2048; ++x) {
 		const int at = x + 2048, knot = at >> 7, part = at & 127;
@@ -28,6 +28,6 @@ LogisticTables::LogisticTables()
 	}
 }
 
-const LogisticTables kLogistic;
+constexpr LogisticTables kLogistic;
 
 } // namespace wavemesh

@@ -16,8 +16,9 @@ struct LogisticTables
 {
 	std::array<std::uint16_t, 4096> squash; ///< by x + 2048, 1/65536, 16..65520
 	std::array<std::int16_t, 4096> stretch; ///< by p / 16
-	LogisticTables();
+	constexpr LogisticTables();
 };
+/// There at compile time: whoever encodes before main() needs it.
 extern const LogisticTables kLogistic;
 
 inline Probability squash(int x)

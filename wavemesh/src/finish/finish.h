@@ -50,7 +50,7 @@ public:
 
 	/// Applies the chunk of a feature; features come in their order.
 	/// @return Corrupt, ChecksumMismatch (of the digest), Cancelled; then the mesh is not to be
-	/// used
+	///         used
 	Status
 	apply(Feature feature, const std::uint8_t* payload, std::size_t size, const Stage& stage);
 

@@ -5,10 +5,17 @@
 
 #include "mesh/corner_table.h"
 
+#include <cfloat>
+#include <limits>
+
 namespace wavemesh {
 
 /// Largest lattice coordinate is below 2^kMaxBits.
 constexpr int kMaxBits = 24;
+
+static_assert(
+    FLT_EVAL_METHOD == 0 && std::numeric_limits<double>::is_iec559,
+    "decoders give the same positions bit for bit: every operation rounds to double");
 
 /// Position = origin + step * lattice point, in that order of IEEE double operations.
 struct Lattice

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Arithmetic of points and displacements in model units. For filters and searches, never for what
-/// a decoder must repeat.
+/// Arithmetic of points and displacements in double. For filters and the encoder's choices, never
+/// for what a decoder must repeat; only IEEE operations, so that every machine chooses the same.
 #pragma once
 
 #include <array>

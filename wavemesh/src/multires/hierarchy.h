@@ -66,7 +66,7 @@ struct Replay
 
 /// @param base    connectivity of the base mesh in the decoder's order
 /// @param source  #V_0: vertex of the coarsest mesh in the encoder's numbering behind each of
-/// base's
+///                base's
 /// @param coarsenings  from coarsenAll(), finest first; each is freed as soon as it was replayed
 Replay replay(std::vector<Coarsening> coarsenings, CornerTable base, std::vector<Index> source);
 

@@ -79,13 +79,10 @@ void Quadrics::carry(const Coarsening& step, const std::vector<LatticePoint>& fi
 		    difference(finePositions[step.fineVertex[parent]], finePositions[child]), share);
 	};
 	const CornerTable& table = step.coarse;
-	for (Index c = 0; c < table.cornerCount(); ++c) {
-		const Index child = step.childOnEdge[c], across = table.opposite[c];
-		if (child == kNone || (across != kNone && across < c))
-			continue;
+	forEachSplitEdge(table, step.childOnEdge, [&](Index c, Index child) {
 		give(child, table.vertex[nextCorner(c)], 0.5);
 		give(child, table.vertex[prevCorner(c)], 0.5);
-	}
+	});
 	for (Index f = 0; f < step.centre.size(); ++f)
 		if (step.centre[f] != kNone)
 			for (Index c = 3 * f; c < 3 * f + 3; ++c)

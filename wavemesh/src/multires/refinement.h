@@ -36,11 +36,24 @@ struct Refinement
 {
 	Index parentVertices = 0;
 	Index childVertices  = 0; ///< of the finer level; its first parentVertices are the parent's
-	std::vector<Index>
-	    childOnEdge; ///< #parent corners: new vertex on the edge that the corner faces, or kNone
+	/// #parent corners: new vertex on the edge that the corner faces, or kNone
+	std::vector<Index> childOnEdge;
 	std::vector<FaceCode> faceCode; ///< #parent faces
 	bool hasCentres = false;        ///< is any face code kFaceCentre?
 };
+
+/// Calls visit(corner, child) for each split edge, by the lower of the corners that face it: in the
+/// order of the new vertices.
+template <class Visit>
+void forEachSplitEdge(
+    const CornerTable& parent, const std::vector<Index>& childOnEdge, const Visit& visit)
+{
+	for (Index c = 0; c < parent.cornerCount(); ++c) {
+		const Index d = parent.opposite[c];
+		if (childOnEdge[c] != kNone && (d == kNone || c < d))
+			visit(c, childOnEdge[c]);
+	}
+}
 
 /// Number of split edges of a face, 0..3, and the corner that stands for it: the corner facing the
 /// split edge (1:2) or the edge that is not split (1:3), else the first.

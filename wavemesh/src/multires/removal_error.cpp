@@ -154,13 +154,11 @@ double excessError(
 {
 	std::vector<ChildOf> removed;
 	const CornerTable& table = step.coarse;
-	for (Index c = 0; c < table.cornerCount(); ++c) {
-		const Index child = step.childOnEdge[c], across = table.opposite[c];
-		if (child != kNone && (across == kNone || c < across))
-			removed.push_back(
-			    {child, step.fineVertex[table.vertex[nextCorner(c)]],
-			     step.fineVertex[table.vertex[prevCorner(c)]]});
-	}
+	forEachSplitEdge(table, step.childOnEdge, [&](Index c, Index child) {
+		removed.push_back(
+		    {child, step.fineVertex[table.vertex[nextCorner(c)]],
+		     step.fineVertex[table.vertex[prevCorner(c)]]});
+	});
 	const std::vector<Index> first = firstCorners(fine);
 	const Removal removal(fine, positions, quadrics);
 	double made = 0, least = 0;

@@ -37,11 +37,9 @@ std::vector<Index> Neighbourhood::beginChildren(
 	parents_  = &parents;
 	firstNew_ = parent.vertexCount;
 	edgeCorner_.assign(parents.size(), kNone);
-	for (Index c = 0; c < parent.cornerCount(); ++c) {
-		const Index d = parent.opposite[c];
-		if (refinement.childOnEdge[c] != kNone && (d == kNone || c < d))
-			edgeCorner_[refinement.childOnEdge[c] - firstNew_] = c;
-	}
+	forEachSplitEdge(parent, refinement.childOnEdge, [this](Index c, Index child) {
+		edgeCorner_[child - firstNew_] = c;
+	});
 	likely_     = likelyPositions(parent, {cells.begin(), cells.begin() + firstNew_}, 0, glue_);
 	normals_    = vertexNormals(parent, likely_);
 	laplacians_ = laplacians(parent, likely_);

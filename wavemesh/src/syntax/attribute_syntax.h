@@ -34,13 +34,19 @@ public:
 	}
 
 	/// The rows of the base mesh, and those of the whole mesh.
-	/// @param next  writing: the tables of the level, with a row for each vertex, copies too
+	/// @param next      writing: the tables of the level, with a row for each vertex, copies too
+	/// @param progress  by channels; what was coded is of no use if it returned false
 	template <class Coder>
-	void codeBase(Coder& coder, const CornerTable& table, const Glue& glue, Tables next = {})
+	void codeBase(
+	    Coder& coder,
+	    const CornerTable& table,
+	    const Glue& glue,
+	    Tables next              = {},
+	    const Progress& progress = {})
 	{
 		begin<Coder>(table, std::move(next));
 		const Fans fans(table);
-		for (std::size_t i = 0; i < channels_.size(); ++i)
+		for (std::size_t i = 0; i < channels_.size() && goesOn(progress, i); ++i)
 			inLevel(coder, i, [&] {
 				switch (channels_[i].of) {
 				case AttributeOf::Vertex:
@@ -64,7 +70,7 @@ public:
 			});
 	}
 
-	/// What the rows of the next level differ from those of this one.
+	/// What the rows of the next level differ from those of this one. See codeBase().
 	template <class Coder>
 	void codeSplit(
 	    Coder& coder,
@@ -72,12 +78,13 @@ public:
 	    const CornerTable& child,
 	    const Refinement& refinement,
 	    const Parents& parents,
-	    Tables next = {})
+	    Tables next              = {},
+	    const Progress& progress = {})
 	{
 		const Fans fans(child);
 		const Descent descent = descentOf(parent, child, refinement, parents, fans);
 		begin<Coder>(child, std::move(next));
-		for (std::size_t i = 0; i < channels_.size(); ++i)
+		for (std::size_t i = 0; i < channels_.size() && goesOn(progress, i); ++i)
 			inLevel(coder, i, [&] {
 				switch (channels_[i].of) {
 				case AttributeOf::Vertex:
@@ -147,6 +154,10 @@ private:
 		std::size_t last = 0; ///< answer to `kept` or `single` before, 0 or 1
 	};
 
+	bool goesOn(const Progress& progress, std::size_t i) const
+	{
+		return !progress || progress(double(i) / double(channels_.size()));
+	}
 	std::size_t width(std::size_t i) const { return channels_[i].width(); }
 	const double* rowAt(std::size_t i, Index row) const
 	{

@@ -6,6 +6,7 @@
 
 #include "entropy/models.h"
 #include "mesh/integer_math.h"
+#include "stage.h"
 #include "syntax/glue_syntax.h"
 
 #include <unordered_set>
@@ -30,6 +31,10 @@ public:
 		last_.fill(static_cast<std::int32_t>(1u << (bits - 1)));
 	}
 
+	/// Has `progress` called now and then with the part of the faces that are coded. If it returns
+	/// false, read() ends with Cancelled.
+	void watch(const Progress& progress) { progress_ = progress; }
+
 	/// Writes `base`; `source` tells the vertex of `base` behind each vertex of the coded order.
 	/// Returns the mesh in the coded order: what read() gives.
 	/// @param group  if glued: #V, of the vertices of `base`, see GlueSyntax::write()
@@ -51,7 +56,7 @@ public:
 	}
 
 	/// Reads a base mesh of known size. Truncated if the data end first, Corrupt if they do not
-	/// describe a manifold of that size.
+	/// describe a manifold of that size, Cancelled.
 	Result<BaseMesh> read(Index vertices, Index faces)
 	{
 		if (Status s = grow(vertices, faces); !s.ok())
@@ -94,6 +99,8 @@ private:
 			    !addFace(v[0], v[1], v[2], corner))
 				return coder_.exhausted() ? truncated() : corrupt();
 			while (!gates_.empty()) {
+				if (!goesOn(faces))
+					return cancelled();
 				const Gate gate = gates_.back();
 				gates_.pop_back();
 				if (Status s = pass(gate, vertices, faces); !s.ok())
@@ -105,6 +112,15 @@ private:
 	static Status truncated()
 	{
 		return {StatusCode::Truncated, "the data end inside the base mesh"};
+	}
+
+	bool goesOn(Index faces)
+	{
+		constexpr std::size_t kBetween = 1024;
+		if (triangles_.size() < nextAsked_)
+			return true;
+		nextAsked_ = triangles_.size() + kBetween;
+		return !progress_ || progress_(double(triangles_.size()) / double(faces));
 	}
 
 	Index vertexAt(Index corner, Index k) const
@@ -230,6 +246,8 @@ private:
 	std::unordered_set<std::uint64_t> edges_; ///< directed
 	std::vector<Index> openInto_, openFrom_;  ///< #V: the youngest edges
 	LatticePoint last_ {};
+	Progress progress_;
+	std::size_t nextAsked_ = 0;
 	AdaptiveBit boundary_, isNew_, isLeft_, isRight_;
 	std::array<AdaptiveSigned<31>, 3> startModels_, tipModels_;
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "entropy/models.h"
-#include "mesh/glue.h"
+#include "syntax/glue_neighbours.h"
 
 #include <unordered_map>
 
@@ -17,6 +17,8 @@ class GlueSyntax
 {
 public:
 	explicit GlueSyntax(Coder& coder) : coder_(coder) {}
+	GlueSyntax(const GlueSyntax&)            = delete; // a part looks at another
+	GlueSyntax& operator=(const GlueSyntax&) = delete;
 
 	/// Writing: `group` tells for each vertex of the base as given which original it shares with
 	/// others, kNone if with none.
@@ -44,12 +46,9 @@ public:
 			first = kNone;
 		glue_.first.push_back(first == kNone ? v : first);
 		glue_.shared.push_back(first != kNone);
-		around_.emplace_back();
-		copies_.emplace_back();
-		if (first != kNone) {
+		if (first != kNone)
 			glue_.shared[first] = 1;
-			copies_[first].push_back(v);
-		}
+		neighbours_.addVertex();
 		return first;
 	}
 	bool failed() const { return failed_; }
@@ -60,47 +59,19 @@ public:
 		const Index v[3] = {a, b, c};
 		for (int k = 0; k < 3; ++k)
 			for (int m = 1; m < 3; ++m)
-				if (around_[v[k]].size() < kAround)
-					around_[v[k]].push_back(v[(k + m) % 3]);
+				neighbours_.add(v[k], v[(k + m) % 3]);
 	}
 
 	Glue take() { return std::move(glue_); }
 
 private:
-	static constexpr std::size_t kAround     = 24; ///< neighbours that are looked at
-	static constexpr std::size_t kCandidates = 32;
-
 	bool isShared(Index v) const { return v != kNone && glue_.shared[v] != 0; }
-
-	void addCandidate(Index v)
-	{
-		v = glue_.first[v];
-		if (candidates_.size() < kCandidates &&
-		    std::find(candidates_.begin(), candidates_.end(), v) == candidates_.end())
-			candidates_.push_back(v);
-	}
-
-	/// Neighbours of the other copies of v.
-	void addAround(Index v)
-	{
-		if (!isShared(v))
-			return;
-		const Index first = glue_.first[v];
-		const auto look   = [&](Index copy) {
-            if (copy != v)
-                for (const Index n : around_[copy])
-                    addCandidate(n);
-		};
-		look(first);
-		for (std::size_t i = 0; i < copies_[first].size() && candidates_.size() < kCandidates; ++i)
-			look(copies_[first][i]);
-	}
 
 	Index codeFirst(Index first, Index from, Index to)
 	{
 		candidates_.clear();
-		addAround(from);
-		addAround(to);
+		neighbours_.append(from, candidates_);
+		neighbours_.append(to, candidates_);
 		const std::size_t at = std::size_t(
 		    std::find(candidates_.begin(), candidates_.end(), first) - candidates_.begin());
 		for (std::size_t i = 0; i < candidates_.size(); ++i)
@@ -116,11 +87,10 @@ private:
 	Coder& coder_;
 	Glue glue_;
 	bool failed_ = false;
-	std::vector<std::vector<Index>> around_; ///< #V: neighbours, the first few
-	std::vector<std::vector<Index>> copies_; ///< #V: of a first one
+	GlueNeighbours neighbours_ {glue_};
 	std::vector<Index> candidates_;
 	std::array<AdaptiveBit, 4> isCopy_;
-	std::array<AdaptiveBit, kCandidates> isThis_;
+	std::array<AdaptiveBit, GlueNeighbours::kCandidates> isThis_;
 
 	// Writing only.
 	const std::vector<Index>* group_ = nullptr;

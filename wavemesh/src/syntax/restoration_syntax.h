@@ -20,8 +20,7 @@ public:
 
 	/// @param vertices, faces  of the original
 	/// @return Corrupt if the numbers contradict each other; reading, the caller checks for
-	/// exhaustion
-	///         first.
+	///         exhaustion first.
 	/// @pre writing: r.isolated is in the order of PointSetSyntax
 	Status code(Restoration& r, Index vertices, Index faces)
 	{

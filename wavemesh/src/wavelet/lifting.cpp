@@ -44,12 +44,10 @@ Parents parentsOf(const CornerTable& parent, const Refinement& r)
 	Index centre = r.childVertices - r.parentVertices;
 	for (const FaceCode code : r.faceCode)
 		centre -= code == kFaceCentre;
-	for (Index c = 0; c < parent.cornerCount(); ++c) {
-		const Index d = parent.opposite[c];
-		if (r.childOnEdge[c] != kNone && (d == kNone || c < d))
-			parents[r.childOnEdge[c] - r.parentVertices] = {
-			    parent.vertex[nextCorner(c)], parent.vertex[prevCorner(c)], kNone};
-	}
+	forEachSplitEdge(parent, r.childOnEdge, [&](Index c, Index child) {
+		parents[child - r.parentVertices] = {
+		    parent.vertex[nextCorner(c)], parent.vertex[prevCorner(c)], kNone};
+	});
 	for (Index f = 0; f < parent.faceCount(); ++f)
 		if (r.faceCode[f] == kFaceCentre)
 			parents[centre++] = {

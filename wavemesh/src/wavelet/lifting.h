@@ -41,7 +41,7 @@ void keepStill(const Glue& glue, UpdateWeights& weights);
 ///
 /// Source: (23) predict, D = floor(B_lazy C), then (24) update, C' = A_lazy C + floor(alpha D).
 /// @param positions  [in,out] #V_j by 3, lattice units; on return the first #V_{j-1} rows are level
-/// j-1
+///                   j-1
 /// @return details, #(V_j - V_{j-1}) by 3, lattice units
 /// Arithmetic modulo 2^32. @post synthesise() restores `positions` exactly.
 std::vector<LatticePoint>

@@ -214,13 +214,10 @@ UpdateWeights updateWeights(
 		return out;
 	Solver solver(parent, refinement);
 	out.begin.reserve(parents.size() + 1);
-	for (Index c = 0; c < parent.cornerCount(); ++c) {
-		const Index d = parent.opposite[c];
-		if (refinement.childOnEdge[c] == kNone || (d != kNone && d < c))
-			continue;
+	forEachSplitEdge(parent, refinement.childOnEdge, [&](Index c, Index) {
 		out.begin.push_back(static_cast<Index>(out.vertex.size()));
 		solver.solve(c, disc, out);
-	}
+	});
 	// Centres update nothing.
 	out.begin.resize(parents.size() + 1, static_cast<Index>(out.vertex.size()));
 	return out;

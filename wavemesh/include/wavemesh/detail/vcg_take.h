@@ -15,8 +15,8 @@
 
 namespace wavemesh {
 
-/// Channels, to be combined.
-enum Channel : unsigned {
+/// Channels of a VCG mesh, to be combined with | as unsigned numbers.
+enum VcgChannel : unsigned {
 	kVertexColour    = 1u << 0,
 	kVertexNormal    = 1u << 1,
 	kVertexQuality   = 1u << 2,
